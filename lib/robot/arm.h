@@ -1,0 +1,39 @@
+#pragma once
+
+/// \file
+/// The one interface of every arm: simulated in process, or an RX60 over its protocol. The arm's
+/// state messages (250 Hz) clock the control loop: wait for a state, answer it with exactly one
+/// velocity command. A command acts for one state period only; without the next one the arm
+/// stands still.
+
+#include "core/joints.h"
+
+namespace ringhook {
+
+class Arm {
+ public:
+  Arm() = default;
+  Arm(const Arm&) = delete;
+  Arm& operator=(const Arm&) = delete;
+  virtual ~Arm() = default;
+
+  /// Waits for the next state message; in virtual time this advances the world by one period.
+  /// Throws DeviceError when the link or the arm is lost.
+  [[nodiscard]] virtual ArmState waitState() = 0;
+
+  /// Joint velocities [rad/s] for the coming period. Values that are not finite or exceed the
+  /// arm's speed limits are refused: the arm stops and DeviceError is thrown.
+  virtual void commandVelocity(const JointVector& joint_velocity) = 0;
+
+  /// Stands still at once and accepts no motion until rearm(). Never throws: it is the last thing
+  /// that still works.
+  virtual void stop() noexcept = 0;
+
+  /// Explicit permission to move again after stop() or a fault.
+  virtual void rearm() = 0;
+
+  /// Opens (false) or closes (true) the gripper; returns at once.
+  virtual void setGripper(bool closed) = 0;
+};
+
+}  // namespace ringhook
