@@ -1,0 +1,140 @@
+#include "rig/covered_rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ringhook {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kCoarseRows = 24;
+constexpr double kFinestStep = 0.25;  // [px]
+
+struct Span {
+  double left = 1e9;    // [px]
+  double right = -1e9;  // [px]
+};
+
+/// Columns of the polygon in one row.
+Span spanAt(const std::vector<Vector2d>& polygon, double row) {
+  Span span;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& a = polygon[i];
+    const Vector2d& b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() - row) * (b.y() - row) > 0.0 || a.y() == b.y()) {
+      continue;
+    }
+    const double x = a.x() + (b.x() - a.x()) * (row - a.y()) / (b.y() - a.y());
+    span.left = std::min(span.left, x);
+    span.right = std::max(span.right, x);
+  }
+  return span;
+}
+
+struct Rows {
+  double top = 0.0;     // [px]
+  double bottom = 0.0;  // [px]
+  double area = 0.0;    // [px^2]
+  Span span;
+};
+
+Rows rectangleOf(const std::vector<Vector2d>& polygon, double top, double bottom) {
+  const Span a = spanAt(polygon, top);
+  const Span b = spanAt(polygon, bottom);
+  Rows rows{top, bottom, 0.0, {std::max(a.left, b.left), std::min(a.right, b.right)}};
+  rows.area = std::max(0.0, rows.span.right - rows.span.left) * std::max(0.0, bottom - top);
+  return rows;
+}
+
+Rows coarseSearch(const std::vector<Vector2d>& polygon, double low, double high) {
+  Rows best;
+  const double step = (high - low) / kCoarseRows;
+  for (int a = 0; a < kCoarseRows; ++a) {
+    for (int b = a + 1; b <= kCoarseRows; ++b) {
+      const Rows rows = rectangleOf(polygon, low + a * step, low + b * step);
+      best = rows.area > best.area ? rows : best;
+    }
+  }
+  return best;
+}
+
+Rows fineSearch(const std::vector<Vector2d>& polygon, Rows best, double step) {
+  while (step > kFinestStep) {
+    const Rows before = best;
+    for (const Vector2d& d :
+         {Vector2d(step, 0), Vector2d(-step, 0), Vector2d(0, step), Vector2d(0, -step)}) {
+      const Rows rows = rectangleOf(polygon, before.top + d.x(), before.bottom + d.y());
+      best = rows.area > best.area ? rows : best;
+    }
+    step = best.area > before.area ? step : 0.5 * step;
+  }
+  return best;
+}
+
+bool columnCovered(int x, const Window& w, const std::function<bool(int, int)>& covered) {
+  for (int y = w.y; y < w.y + w.height; ++y) {
+    if (!covered(x, y)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool rowCovered(int y, const Window& w, const std::function<bool(int, int)>& covered) {
+  for (int x = w.x; x < w.x + w.width; ++x) {
+    if (!covered(x, y)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Window coveredRectangle(const std::vector<Vector2d>& polygon, const Window& bounds,
+                        const std::function<bool(int, int)>& covered) {
+  double low = 1e9;
+  double high = -1e9;
+  for (const Vector2d& p : polygon) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  if (!(high > low)) {
+    return {};
+  }
+  const Rows best =
+      fineSearch(polygon, coarseSearch(polygon, low, high), (high - low) / kCoarseRows);
+  if (!(best.area > 0.0)) {
+    return {};
+  }
+  // One pixel too many on each side, then shrink to what is covered in truth.
+  const int x = static_cast<int>(std::floor(best.span.left)) - 1;
+  const int y = static_cast<int>(std::floor(best.top)) - 1;
+  Window w = intersect({x, y, static_cast<int>(std::ceil(best.span.right)) + 2 - x,
+                        static_cast<int>(std::ceil(best.bottom)) + 2 - y},
+                       bounds);
+  for (bool shrunk = true; shrunk && !w.empty();) {
+    const Window inner{w.x + 2, w.y + 2, w.width - 4, w.height - 4};
+    shrunk = false;
+    if (!rowCovered(w.y, inner, covered)) {
+      w = {w.x, w.y + 1, w.width, w.height - 1};
+      shrunk = true;
+    }
+    if (!w.empty() && !rowCovered(w.y + w.height - 1, inner, covered)) {
+      w.height -= 1;
+      shrunk = true;
+    }
+    if (!w.empty() && !columnCovered(w.x, inner, covered)) {
+      w = {w.x + 1, w.y, w.width - 1, w.height};
+      shrunk = true;
+    }
+    if (!w.empty() && !columnCovered(w.x + w.width - 1, inner, covered)) {
+      w.width -= 1;
+      shrunk = true;
+    }
+  }
+  return w;
+}
+
+}  // namespace ringhook

@@ -1,0 +1,315 @@
+#include <Eigen/SVD>
+#include <array>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <sstream>
+#include <string_view>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "rig/stereo_rig.h"
+
+namespace ringhook {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::string_view, 17> kKnownKeys = {"image_width",
+                                                         "image_height",
+                                                         "K1",
+                                                         "D1",
+                                                         "K2",
+                                                         "D2",
+                                                         "R",
+                                                         "T",
+                                                         "fMc1",
+                                                         "robot_delay_ms",
+                                                         "camera_delay_ms",
+                                                         "rms_px",
+                                                         "heldout_vertical_disparity_px",
+                                                         "board",
+                                                         "views",
+                                                         "date",
+                                                         "tool_version"};
+
+bool isKnown(std::string_view key) {
+  return std::find(kKnownKeys.begin(), kKnownKeys.end(), key) != kKnownKeys.end();
+}
+
+std::string readText(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) {
+    throw InputError(path.string() + ": no such rig file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  const std::string text = content.str();
+  if (!text.starts_with("%YAML") || text.find('\0') != std::string::npos) {
+    throw InputError(path.string() + ": is not an OpenCV YAML file, whose first line is %YAML:1.0");
+  }
+  return text;
+}
+
+/// Typed access to the top-level keys; every failure names file, key and the expected shape.
+class KeyReader {
+ public:
+  KeyReader(cv::FileNode root, std::string file) : root_(root), file_(std::move(file)) {}
+
+  [[nodiscard]] bool has(const std::string& key) const { return !root_[key].empty(); }
+
+  [[nodiscard]] int integer(const std::string& key) const {
+    const cv::FileNode node = root_[key];
+    if (!node.isInt()) {
+      fail(key, "an integer");
+    }
+    return static_cast<int>(node);
+  }
+
+  [[nodiscard]] std::optional<double> number(const std::string& key) const {
+    if (!has(key)) {
+      return std::nullopt;
+    }
+    const cv::FileNode node = root_[key];
+    if (!node.isInt() && !node.isReal()) {
+      fail(key, "a number");
+    }
+    return static_cast<double>(node);
+  }
+
+  [[nodiscard]] std::optional<std::string> text(const std::string& key) const {
+    if (!has(key)) {
+      return std::nullopt;
+    }
+    if (!root_[key].isString()) {
+      fail(key, "a string in quotes");
+    }
+    return static_cast<std::string>(root_[key]);
+  }
+
+  /// Matrix of exactly this shape.
+  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& key, int rows, int cols) const {
+    const std::string shape = std::to_string(rows) + "x" + std::to_string(cols) + " matrix";
+    const Eigen::MatrixXd m = anyMatrix(key, shape);
+    if (m.rows() != rows || m.cols() != cols) {
+      fail(key,
+           "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
+    }
+    return m;
+  }
+
+  /// Row or column of 0 to `most` numbers.
+  [[nodiscard]] Eigen::VectorXd vector(const std::string& key, int most) const {
+    const std::string shape = "row or column of at most " + std::to_string(most) + " numbers";
+    const Eigen::MatrixXd m = anyMatrix(key, shape);
+    if ((m.rows() > 1 && m.cols() > 1) || m.size() > most) {
+      fail(key,
+           "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
+    }
+    return m.reshaped();
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
+    throw InputError(file_ + ": key " + key + (has(key) ? " must be " : " is missing, expected ") +
+                     expected);
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd anyMatrix(const std::string& key, const std::string& shape) const {
+    const cv::FileNode node = root_[key];
+    const std::string expected = "a " + shape + " (!!opencv-matrix of type d or f)";
+    if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt() || !node["dt"].isString() ||
+        !node["data"].isSeq()) {
+      fail(key, expected);
+    }
+    const int rows = static_cast<int>(node["rows"]);
+    const int cols = static_cast<int>(node["cols"]);
+    const std::string type = static_cast<std::string>(node["dt"]);
+    const bool sane = rows >= 0 && cols >= 0 && rows <= 64 && cols <= 64 &&
+                      (type == "d" || type == "f") &&
+                      node["data"].size() == static_cast<std::size_t>(rows * cols);
+    if (!sane) {
+      fail(key, expected);
+    }
+    Eigen::MatrixXd m(rows, cols);
+    for (int i = 0; i < rows * cols; ++i) {
+      const cv::FileNode value = node["data"][i];
+      if (!value.isInt() && !value.isReal()) {
+        fail(key, expected);
+      }
+      m(i / cols, i % cols) = static_cast<double>(value);
+    }
+    return m;
+  }
+
+  cv::FileNode root_;
+  std::string file_;
+};
+
+/// The entries that nobody here knows, as text: a top-level key stands in the first column and its
+/// block reaches to the next one.
+std::vector<UnknownEntry> unknownEntries(const std::string& text) {
+  std::vector<UnknownEntry> entries;
+  bool keep = false;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string line = text.substr(begin, end - begin);
+    begin = end;
+    const std::size_t colon = line.find(':');
+    if (line.starts_with("%") || line.starts_with("---") || line.starts_with("...") ||
+        line.starts_with("#")) {
+      keep = false;
+    } else if (colon != std::string::npos && colon > 0 &&
+               std::string(" \t-[]{},").find(line[0]) == std::string::npos) {
+      std::string key = line.substr(0, colon);
+      key.erase(key.find_last_not_of(" \t\"'") + 1);
+      key.erase(0, key.find_first_not_of("\"'"));
+      keep = !isKnown(key);
+      if (keep) {
+        entries.push_back({key, line});
+      }
+    } else if (keep) {
+      entries.back().text += line;
+    }
+  }
+  return entries;
+}
+
+/// The rotation closest to a matrix already checked to be nearly one (polar decomposition).
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+CameraModel readCamera(const KeyReader& keys, const std::string& side) {
+  CameraModel camera;
+  camera.width = keys.integer("image_width");
+  camera.height = keys.integer("image_height");
+  camera.K = keys.matrix("K" + side, 3, 3);
+  camera.distortion = keys.vector("D" + side, 14);
+  return camera;
+}
+
+void readPair(const KeyReader& keys, StereoRig& rig) {
+  rig.right = readCamera(keys, "2");
+  rig.c2Mc1.linear() = keys.matrix("R", 3, 3);
+  const Eigen::VectorXd T = keys.vector("T", 3);
+  if (T.size() != 3) {
+    keys.fail("T", "a 3x1 matrix, not " + std::to_string(T.size()) + "x1");
+  }
+  rig.c2Mc1.translation() = T;
+}
+
+void readEvidence(const KeyReader& keys, StereoRig& rig) {
+  rig.rms_px = keys.number("rms_px");
+  rig.heldout_vertical_disparity_px = keys.number("heldout_vertical_disparity_px");
+  rig.board = keys.text("board");
+  rig.date = keys.text("date");
+  rig.tool_version = keys.text("tool_version");
+  if (keys.has("views")) {
+    rig.views = keys.integer("views");
+  }
+}
+
+StereoRig readRig(const KeyReader& keys) {
+  StereoRig rig;
+  rig.left = readCamera(keys, "1");
+  if (keys.has("K2") || keys.has("D2") || keys.has("R") || keys.has("T")) {
+    readPair(keys, rig);
+  }
+  if (keys.has("fMc1")) {
+    const Eigen::MatrixXd m = keys.matrix("fMc1", 4, 4);
+    if (m.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
+      keys.fail("fMc1", "a 4x4 matrix with last row 0 0 0 1");
+    }
+    rig.fMc1 = Pose(Eigen::Matrix4d(m));
+  }
+  rig.robot_delay_s = keys.number("robot_delay_ms").value_or(0.0) * 1e-3;
+  rig.camera_delay_s = keys.number("camera_delay_ms").value_or(0.0) * 1e-3;
+  readEvidence(keys, rig);
+  return rig;
+}
+
+cv::Mat toCv(const Eigen::MatrixXd& m) {
+  cv::Mat out(static_cast<int>(m.rows()), static_cast<int>(m.cols()), CV_64F);
+  for (int r = 0; r < out.rows; ++r) {
+    for (int c = 0; c < out.cols; ++c) {
+      out.at<double>(r, c) = m(r, c);
+    }
+  }
+  return out;
+}
+
+template <class T>
+void writeIfKnown(cv::FileStorage& file, const char* key, const std::optional<T>& value) {
+  if (value) {
+    cv::write(file, key, *value);
+  }
+}
+
+void writeKnown(cv::FileStorage& file, const StereoRig& rig) {
+  cv::write(file, "image_width", rig.left.width);
+  cv::write(file, "image_height", rig.left.height);
+  cv::write(file, "K1", toCv(rig.left.K));
+  cv::write(file, "D1", toCv(rig.left.distortion.transpose()));
+  if (rig.right) {
+    cv::write(file, "K2", toCv(rig.right->K));
+    cv::write(file, "D2", toCv(rig.right->distortion.transpose()));
+    cv::write(file, "R", toCv(rig.c2Mc1.linear()));
+    cv::write(file, "T", toCv(rig.c2Mc1.translation()));
+  }
+  if (rig.fMc1) {
+    cv::write(file, "fMc1", toCv(rig.fMc1->matrix()));
+  }
+  cv::write(file, "robot_delay_ms", rig.robot_delay_s * 1e3);
+  cv::write(file, "camera_delay_ms", rig.camera_delay_s * 1e3);
+  writeIfKnown(file, "rms_px", rig.rms_px);
+  writeIfKnown(file, "heldout_vertical_disparity_px", rig.heldout_vertical_disparity_px);
+  writeIfKnown(file, "board", rig.board);
+  writeIfKnown(file, "views", rig.views);
+  writeIfKnown(file, "date", rig.date);
+  writeIfKnown(file, "tool_version", rig.tool_version);
+}
+
+}  // namespace
+
+StereoRig loadRig(const fs::path& path) {
+  const std::string text = readText(path);
+  try {
+    const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    if (!file.isOpened() || !file.root().isMap()) {
+      throw InputError(path.string() + ": is not an OpenCV YAML file with keys at the top");
+    }
+    StereoRig rig = readRig(KeyReader(file.root(), path.string()));
+    checkRig(rig, path.string());
+    rig.c2Mc1.linear() = nearestRotation(rig.c2Mc1.linear());
+    if (rig.fMc1) {
+      rig.fMc1->linear() = nearestRotation(rig.fMc1->linear());
+    }
+    rig.unknown_entries = unknownEntries(text);
+    return rig;
+  } catch (const cv::Exception& e) {
+    throw InputError(path.string() + ": is not a YAML file that OpenCV can read (" + e.err + ")");
+  }
+}
+
+void saveRig(const fs::path& path, const StereoRig& rig) {
+  checkRig(rig, path.string());
+  std::string text;
+  try {
+    cv::FileStorage file("rig.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+    writeKnown(file, rig);
+    text = file.releaseAndGetString();
+  } catch (const cv::Exception& e) {
+    throw InputError(path.string() + ": cannot hold this rig (" + e.err + ")");
+  }
+  for (const UnknownEntry& entry : rig.unknown_entries) {
+    text += entry.text;
+    if (!entry.text.ends_with('\n')) {
+      text += '\n';
+    }
+  }
+  writeFileAtomically(path, text);
+}
+
+}  // namespace ringhook
