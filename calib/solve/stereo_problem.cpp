@@ -1,0 +1,266 @@
+#include "calib/solve/stereo_problem.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/error.h"
+
+namespace ringhook {
+namespace {
+
+constexpr int kLensSize = 12;  // fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6
+constexpr int kPoseSize = 6;   // rotation vector [rad], translation [m]
+using LensBlock = std::array<double, kLensSize>;
+using PoseBlock = std::array<double, kPoseSize>;
+
+template <class T>
+void transform(const T* pose, const T* point, T* moved) {
+  ceres::AngleAxisRotatePoint(pose, point, moved);
+  for (int i = 0; i < 3; ++i) {
+    moved[i] += pose[3 + i];
+  }
+}
+
+// The law of rig/camera_model.h, here for automatic derivatives.
+template <class T>
+void project(const T* lens, const T* point_c, T* pixel) {
+  const T x = point_c[0] / point_c[2];
+  const T y = point_c[1] / point_c[2];
+  const T r2 = x * x + y * y;
+  const T* k = lens + 4;
+  const T s =
+      (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  const T xd = s * x + 2.0 * k[2] * x * y + k[3] * (r2 + 2.0 * x * x);
+  const T yd = s * y + k[2] * (r2 + 2.0 * y * y) + 2.0 * k[3] * x * y;
+  pixel[0] = lens[0] * xd + lens[2];
+  pixel[1] = lens[1] * yd + lens[3];
+}
+
+struct LeftResidual {
+  Eigen::Vector3d point_t;
+  Eigen::Vector2d seen;
+
+  template <class T>
+  bool operator()(const T* left, const T* c1Mt, T* residual) const {
+    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+    std::array<T, 3> point_c1;
+    transform(c1Mt, point.data(), point_c1.data());
+    project(left, point_c1.data(), residual);
+    residual[0] -= seen.x();
+    residual[1] -= seen.y();
+    return true;
+  }
+};
+
+struct RightResidual {
+  Eigen::Vector3d point_t;
+  Eigen::Vector2d seen;
+
+  template <class T>
+  bool operator()(const T* right, const T* c2Mc1, const T* c1Mt, T* residual) const {
+    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+    std::array<T, 3> point_c1;
+    std::array<T, 3> point_c2;
+    transform(c1Mt, point.data(), point_c1.data());
+    transform(c2Mc1, point_c1.data(), point_c2.data());
+    project(right, point_c2.data(), residual);
+    residual[0] -= seen.x();
+    residual[1] -= seen.y();
+    return true;
+  }
+};
+
+LensBlock blockOf(const CameraModel& model) {
+  LensBlock block{model.K(0, 0), model.K(1, 1), model.K(0, 2), model.K(1, 2)};
+  for (int i = 0; i < model.distortion.size(); ++i) {
+    block[static_cast<std::size_t>(4 + i)] = model.distortion[i];
+  }
+  return block;
+}
+
+PoseBlock blockOf(const Pose& pose) {
+  const Eigen::Vector3d r = thetaU(pose.linear());
+  const Eigen::Vector3d t = pose.translation();
+  return {r.x(), r.y(), r.z(), t.x(), t.y(), t.z()};
+}
+
+Pose poseOf(const PoseBlock& block) {
+  return makePoseThetaU({block[3], block[4], block[5]}, {block[0], block[1], block[2]});
+}
+
+void readBlock(const LensBlock& block, LensTerms terms, CameraModel& model) {
+  model.K << block[0], 0, block[2], 0, block[1], block[3], 0, 0, 1;
+  model.distortion = Eigen::Map<const Eigen::VectorXd>(block.data() + 4, static_cast<int>(terms));
+}
+
+// The parameters, the residuals over them, and the order that eliminates the views first.
+struct Bundle {
+  LensBlock left;
+  LensBlock right;
+  PoseBlock c2Mc1;
+  std::vector<PoseBlock> c1Mt;
+  ceres::Problem problem;
+
+  Bundle(const StereoSolution& start, const std::vector<StereoView>& views, const Chessboard& board,
+         LensTerms terms)
+      : left(blockOf(start.rig.left)),
+        right(blockOf(start.rig.right.value())),
+        c2Mc1(blockOf(start.rig.c2Mc1)) {
+    for (const Pose& pose : start.c1Mt) {
+      c1Mt.push_back(blockOf(pose));
+    }
+    const std::vector<Eigen::Vector3d> points = board.points();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        addCorner(points[j], views[i].left[j], views[i].right[j], c1Mt[i].data());
+      }
+    }
+    holdUnusedTerms(terms);
+  }
+
+  void addCorner(const Eigen::Vector3d& point_t, const Eigen::Vector2d& seen_left,
+                 const Eigen::Vector2d& seen_right, double* view_pose) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize>(
+                                 new LeftResidual{point_t, seen_left}),
+                             nullptr, left.data(), view_pose);
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize>(
+            new RightResidual{point_t, seen_right}),
+        nullptr, right.data(), c2Mc1.data(), view_pose);
+  }
+
+  void holdUnusedTerms(LensTerms terms) {
+    std::vector<int> held;
+    for (int i = 4 + static_cast<int>(terms); i < kLensSize; ++i) {
+      held.push_back(i);
+    }
+    if (!held.empty()) {
+      problem.SetManifold(left.data(), new ceres::SubsetManifold(kLensSize, held));
+      problem.SetManifold(right.data(), new ceres::SubsetManifold(kLensSize, held));
+    }
+  }
+};
+
+}  // namespace
+
+StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
+                              const Chessboard& board, LensTerms terms) {
+  Bundle bundle(start, views, board, terms);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = 500;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  options.gradient_tolerance = 1e-12;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &bundle.problem, &summary);
+  if (!summary.IsSolutionUsable()) {
+    throw Error("the stereo calibration does not converge (" + summary.message +
+                "): take more pictures with the board tilted in different directions");
+  }
+  StereoSolution solution = start;
+  readBlock(bundle.left, terms, solution.rig.left);
+  readBlock(bundle.right, terms, *solution.rig.right);
+  solution.rig.c2Mc1 = poseOf(bundle.c2Mc1);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    solution.c1Mt[i] = poseOf(bundle.c1Mt[i]);
+  }
+  return solution;
+}
+
+std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
+                                       const std::vector<StereoView>& views,
+                                       const Chessboard& board, LensTerms terms, double sigma_px) {
+  Bundle bundle(solution, views, board, terms);
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  ceres::Covariance covariance(options);
+  const double* l = bundle.left.data();
+  const double* r = bundle.right.data();
+  const double* p = bundle.c2Mc1.data();
+  if (!covariance.Compute({{l, l}, {r, r}, {p, p}}, &bundle.problem)) {
+    return std::nullopt;
+  }
+  Eigen::Matrix<double, kLensSize, kLensSize, Eigen::RowMajor> left;
+  Eigen::Matrix<double, kLensSize, kLensSize, Eigen::RowMajor> right;
+  Eigen::Matrix<double, kPoseSize, kPoseSize, Eigen::RowMajor> pose;
+  covariance.GetCovarianceBlock(l, l, left.data());
+  covariance.GetCovarianceBlock(r, r, right.data());
+  covariance.GetCovarianceBlock(p, p, pose.data());
+  const Eigen::Vector3d along = solution.rig.c2Mc1.translation().normalized();
+  const double baseline_variance = along.dot(pose.bottomRightCorner<3, 3>() * along);
+  const double focal_variance =
+      std::max(left.diagonal().head<2>().maxCoeff(), right.diagonal().head<2>().maxCoeff());
+  return Uncertainty{sigma_px * std::sqrt(focal_variance), sigma_px * std::sqrt(baseline_variance)};
+}
+
+std::vector<ViewError> viewErrors(const StereoSolution& solution,
+                                  const std::vector<StereoView>& views, const Chessboard& board) {
+  const std::vector<Eigen::Vector3d> points = board.points();
+  const auto residual2 = [](const CameraModel& camera, const Eigen::Vector3d& point_c,
+                            const Eigen::Vector2d& seen) {
+    return (projectNormalised(camera, point_c.hnormalized()) - seen).squaredNorm();
+  };
+  std::vector<ViewError> errors;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    double left = 0.0;
+    double right = 0.0;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const Eigen::Vector3d point_c1 = solution.c1Mt[i] * points[j];
+      left += residual2(solution.rig.left, point_c1, views[i].left[j]);
+      right += residual2(*solution.rig.right, solution.rig.c2Mc1 * point_c1, views[i].right[j]);
+    }
+    const auto n = static_cast<double>(points.size());
+    errors.push_back(
+        {std::sqrt(left / n), std::sqrt(right / n), std::sqrt((left + right) / (2 * n))});
+  }
+  return errors;
+}
+
+double rms(const std::vector<ViewError>& errors) {
+  double sum = 0.0;
+  for (const ViewError& e : errors) {
+    sum += e.both_px * e.both_px;
+  }
+  return std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+int redundancy(std::size_t views, const Chessboard& board, LensTerms terms) {
+  const int n = static_cast<int>(views);
+  const int residuals = 4 * n * static_cast<int>(board.size());
+  return residuals - 2 * (4 + static_cast<int>(terms)) - kPoseSize * (n + 1);
+}
+
+std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view) {
+  // Both cameras turn half way towards each other, then together until the baseline is along x.
+  const CameraModel& right = rig.right.value();
+  const Eigen::AngleAxisd c2Rc1(rig.c2Mc1.linear());
+  const Eigen::Quaterniond half(Eigen::AngleAxisd(0.5 * c2Rc1.angle(), c2Rc1.axis()));
+  const Eigen::Vector3d along = half.conjugate() * rig.c2Mc1.translation();
+  const Eigen::Vector3d x_axis = (along.x() < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::UnitX();
+  const auto level = Eigen::Quaterniond::FromTwoVectors(along, x_axis);
+  const double focal = 0.25 * (rig.left.K(0, 0) + rig.left.K(1, 1) + right.K(0, 0) + right.K(1, 1));
+  const auto row = [&](const CameraModel& camera, const Eigen::Quaterniond& turn,
+                       const Eigen::Vector2d& pixel) {
+    const Outcome<Eigen::Vector2d> ray = undistortPixel(camera, pixel);
+    return ray ? focal * (turn * ray->homogeneous()).hnormalized().y()
+               : std::numeric_limits<double>::infinity();
+  };
+  std::vector<double> differences;
+  for (std::size_t j = 0; j < view.left.size(); ++j) {
+    const double d = row(rig.left, level * half, view.left[j]) -
+                     row(right, level * half.conjugate(), view.right[j]);
+    differences.push_back(std::isfinite(d) ? d : std::numeric_limits<double>::infinity());
+  }
+  return differences;
+}
+
+}  // namespace ringhook
