@@ -12,8 +12,7 @@ namespace {
 /// "dir/name.ext" -> "dir/.name.partial.ext": the extension stays, since image and storage
 /// libraries choose their format by it.
 fs::path temporaryFor(const fs::path& path) {
-  return path.parent_path() /
-         ("." + path.stem().string() + ".partial" + path.extension().string());
+  return path.parent_path() / ("." + path.stem().string() + ".partial" + path.extension().string());
 }
 
 }  // namespace

@@ -35,13 +35,14 @@ inline Window intersect(const Window& a, const Window& b) {
 
 /// 8-bit grey image, rows one after the other without padding.
 struct GrayImage {
-  int width = 0;   ///< [px]
-  int height = 0;  ///< [px]
+  int width = 0;                     ///< [px]
+  int height = 0;                    ///< [px]
   std::vector<std::uint8_t> pixels;  ///< width * height values
 
   GrayImage() = default;
   GrayImage(int w, int h, std::uint8_t value = 0)
-      : width(w), height(h),
+      : width(w),
+        height(h),
         pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
 
   [[nodiscard]] bool empty() const { return pixels.empty(); }

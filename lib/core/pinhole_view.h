@@ -13,12 +13,12 @@
 namespace ringhook {
 
 struct PinholeView {
-  double fx = 1.0;  ///< focal length along u [px]
-  double fy = 1.0;  ///< focal length along v [px]
-  double cx = 0.0;  ///< principal point, u [px]
-  double cy = 0.0;  ///< principal point, v [px]
-  int width = 0;    ///< of the full image [px]
-  int height = 0;   ///< of the full image [px]
+  double fx = 1.0;               ///< focal length along u [px]
+  double fy = 1.0;               ///< focal length along v [px]
+  double cx = 0.0;               ///< principal point, u [px]
+  double cy = 0.0;               ///< principal point, v [px]
+  int width = 0;                 ///< of the full image [px]
+  int height = 0;                ///< of the full image [px]
   Pose cMc1 = Pose::Identity();  ///< left camera in this camera; a pure rotation for left itself
 
   /// Pixel of a point given in c1 [m]; nothing if it lies behind this camera.

@@ -13,8 +13,8 @@
 
 namespace ringhook {
 
-using Pose = Eigen::Isometry3d;                 ///< aMb; translation [m]
-using Twist = Eigen::Matrix<double, 6, 1>;      ///< linear [m/s] over angular [rad/s]
+using Pose = Eigen::Isometry3d;                   ///< aMb; translation [m]
+using Twist = Eigen::Matrix<double, 6, 1>;        ///< linear [m/s] over angular [rad/s]
 using Covariance6 = Eigen::Matrix<double, 6, 6>;  ///< translation [m^2] over rotation [rad^2]
 
 /// Pose from a position [m] and a rotation; the quaternion is normalised.

@@ -25,8 +25,8 @@ struct StereoFrame {
 /// One image after undistortion and rectification: pixels of `window` in an ideal pinhole camera.
 struct RectifiedView {
   PinholeView camera;
-  Window window;     ///< place of `image` in the camera's full rectified image [px]
-  GrayImage image;   ///< pixels of `window`
+  Window window;    ///< place of `image` in the camera's full rectified image [px]
+  GrayImage image;  ///< pixels of `window`
 };
 
 /// One (mono) or two (left, right) rectified views of one instant.

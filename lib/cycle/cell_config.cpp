@@ -1,0 +1,110 @@
+#include "cycle/cell_config.h"
+
+#include <numbers>
+
+#include "core/error.h"
+#include "cycle/yaml_fields.h"
+
+namespace ringhook {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+HookConfig readHook(YamlFields fields) {
+  HookConfig hook;
+  hook.plate = fields.path("plate");
+  hook.model = fields.path("model");
+  hook.pivot_o = fields.vector("pivot_o_m", 3);
+  hook.pendulum_length_m = fields.number("pendulum_length_m", 0.01, 10.0);
+  hook.swing_max_rad = fields.number("swing_max_deg", 0.0, 45.0) * kRadPerDeg;
+  fields.refuseUnknown();
+  return hook;
+}
+
+BeltConfig readBelt(YamlFields fields) {
+  BeltConfig belt;
+  belt.pivot_start_f = fields.vector("pivot_start_f_m", 3);
+  const Eigen::Vector3d direction = fields.vector("direction_f", 3);
+  if (direction.norm() < 1e-6) {
+    throw InputError("field belt.direction_f: expected a direction, not zeros");
+  }
+  belt.direction_f = direction.normalized();
+  belt.search_from_m = fields.number("search_from_m");
+  belt.search_to_m = fields.number("search_to_m", belt.search_from_m);
+  belt.pick_from_m = fields.number("pick_from_m");
+  belt.pick_to_m = fields.number("pick_to_m", belt.pick_from_m);
+  fields.refuseUnknown();
+  return belt;
+}
+
+ArmConfig readArm(YamlFields fields) {
+  ArmConfig arm;
+  const Eigen::Vector3d position = fields.vector("ring_e_m", 3);
+  const Eigen::Vector4d q = fields.vector("ring_e_quaternion_xyzw", 4);
+  if (q.norm() < 0.5) {
+    throw InputError("field arm.ring_e_quaternion_xyzw: expected a unit quaternion");
+  }
+  arm.eMr = makePose(position, Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
+  arm.load_rad = fields.vector("load_deg", 6) * kRadPerDeg;
+  arm.standby_rad = fields.vector("standby_deg", 6) * kRadPerDeg;
+  arm.speed_fraction = fields.number("speed_fraction", 0.01, 1.0);
+  arm.gripper_time_s = fields.number("gripper_time_s", 0.0, 10.0);
+  arm.delay_s = fields.number("delay_ms", 0.0, 200.0) * 1e-3;
+  fields.refuseUnknown();
+  return arm;
+}
+
+TaskConfig readTask(YamlFields fields) {
+  TaskConfig task;
+  task.gain_per_s = fields.number("gain_per_s", 0.1, 50.0);
+  task.standoff_m = fields.number("standoff_mm", 5.0, 500.0) * 1e-3;
+  task.release_height_m = fields.number("release_height_mm", -50.0, 100.0) * 1e-3;
+  task.retreat_m = fields.number("retreat_mm", 10.0, 500.0) * 1e-3;
+  task.path_speed_m_s = fields.number("path_speed_m_s", 0.001, 1.8);
+  task.approach_speed_m_s = fields.number("approach_speed_m_s", 0.001, 1.8);
+  task.align_tolerance_m = fields.number("align_tolerance_mm", 0.01, 100.0) * 1e-3;
+  task.abort_tolerance_m = fields.number("abort_tolerance_mm", 0.01, 100.0) * 1e-3;
+  task.align_dwell_s = fields.number("align_dwell_s", 0.0, 60.0);
+  task.align_timeout_s = fields.number("align_timeout_s", 0.1, 60.0);
+  task.watch_s = fields.number("watch_s", 0.0, 60.0);
+  fields.refuseUnknown();
+  return task;
+}
+
+VisionConfig readVision(YamlFields fields) {
+  VisionConfig vision;
+  vision.rate_hz = fields.number("rate_hz", 1.0, 1000.0);
+  vision.search_rate_hz = fields.number("search_rate_hz", 0.1, 1000.0);
+  vision.warm_up_s = fields.number("warm_up_s", 0.0, 60.0);
+  vision.stale_after_s = fields.number("stale_after_ms", 1.0, 5000.0) * 1e-3;
+  vision.lost_after_frames = fields.integer("lost_after_frames", 1, 1000);
+  vision.transport_delay_s = fields.number("transport_delay_ms", 0.0, 1000.0) * 1e-3;
+  fields.refuseUnknown();
+  return vision;
+}
+
+}  // namespace
+
+CellConfig loadCellConfig(const std::filesystem::path& file) {
+  YamlFields fields = YamlFields::open(file);
+  CellConfig cell;
+  cell.file = file;
+  cell.name = fields.text("name");
+  cell.rig = fields.path("rig");
+  YamlFields devices = fields.section("devices");
+  const std::string kind = devices.text("kind");
+  if (kind != "simulated") {
+    throw InputError(file.string() + ": field devices.kind: expected simulated, got " + kind);
+  }
+  cell.scenario = devices.path("scenario");
+  devices.refuseUnknown();
+  cell.hook = readHook(fields.section("hook"));
+  cell.belt = readBelt(fields.section("belt"));
+  cell.arm = readArm(fields.section("arm"));
+  cell.task = readTask(fields.section("task"));
+  cell.vision = readVision(fields.section("vision"));
+  fields.refuseUnknown();
+  return cell;
+}
+
+}  // namespace ringhook

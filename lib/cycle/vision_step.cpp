@@ -1,0 +1,176 @@
+#include "cycle/vision_step.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cycle/belt_geometry.h"
+#include "cycle/hook_sight.h"
+#include "prediction/search_window.h"
+#include "stereo/joint_pose.h"
+
+namespace ringhook {
+namespace {
+
+constexpr double kPivotTolerance = 0.06;  // [m]; a wrong detection is off by decimetres
+constexpr double kErrorHorizon = 0.1;     // [s]; of the prediction error that is reported
+
+HookFilterOptions filterOptions(const CellConfig& cell, const Pose& fMc1) {
+  HookFilterOptions options;
+  options.fMc1 = fMc1;
+  options.pivot_o = cell.hook.pivot_o;
+  options.pendulum_length_m = cell.hook.pendulum_length_m;
+  options.warm_up_s = cell.vision.warm_up_s;
+  return options;
+}
+
+Window unite(const Window& a, const Window& b) {
+  if (a.empty() || b.empty()) {
+    return a.empty() ? b : a;
+  }
+  const int x0 = std::min(a.x, b.x);
+  const int y0 = std::min(a.y, b.y);
+  const int x1 = std::max(a.x + a.width, b.x + b.width);
+  const int y1 = std::max(a.y + a.height, b.y + b.height);
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
+}  // namespace
+
+VisionStep::VisionStep(const CellConfig& cell, const StereoRig& rig, TrackerKind tracker)
+    : cell_(cell),
+      fMc1_(requireRobotCamera(rig, cell.rig)),
+      rectifier_(rig),
+      sight_(makeHookSight(cell, fMc1_, tracker)),
+      filter_(filterOptions(cell, fMc1_)) {
+  const Pose c1Mf = fMc1_.inverse();
+  for (int side = 0; side < 2; ++side) {
+    Window rectified;
+    for (const Pose& fMo : searchPoses(cell_)) {
+      rectified = unite(rectified, searchWindow(rectifier_.view(side), c1Mf * fMo,
+                                                Covariance6::Zero(), sight_.outline_o, {}));
+    }
+    search_windows_[side] = rectifier_.rawWindow(side, rectified);
+  }
+  windows_ = search_windows_;
+}
+
+VisionReport VisionStep::process(const StereoFrame& frame) {
+  VisionReport report;
+  report.time = frame.time;
+  const Outcome<HookFix> fix = see(frame);
+  if (fix) {
+    take(*fix, report);
+  } else {
+    miss(fix.reason(), report);
+  }
+  planWindows(frame.time + 1.0 / rateHz());
+  report.state = state_;
+  return report;
+}
+
+Outcome<HookFix> VisionStep::see(const StereoFrame& frame) {
+  const RectifiedFrame rectified = rectifier_.rectify(frame);
+  std::optional<Pose> expected = predicted(frame.time);
+  if (!expected && sight_.find) {
+    const Outcome<Pose> found = sight_.find(rectified);
+    if (!found) {
+      return Refusal{found.reason()};
+    }
+    expected = *found;
+  }
+  const Outcome<HookView> view = sight_.tracker->track(rectified, expected);
+  if (!view) {
+    return Refusal{view.reason()};
+  }
+  const Outcome<HookFix> fix = fixFromView(*view);
+  if (!fix) {
+    return fix;
+  }
+  const std::string objection = whyNotOnBelt(cell_, fMc1_ * fix->c1Mo, kPivotTolerance);
+  return objection.empty() ? fix : Outcome<HookFix>(Refusal{objection});
+}
+
+std::optional<Pose> VisionStep::predicted(Time time) const {
+  const Outcome<HookEstimate> estimate = filter_.predict(time);
+  if (!estimate) {
+    return std::nullopt;
+  }
+  return fMc1_.inverse() * estimate->fMo;
+}
+
+void VisionStep::take(const HookFix& fix, VisionReport& report) {
+  const Outcome<FilterUpdate> update = filter_.update(fix);
+  if (!update) {
+    miss(update.reason(), report);
+    return;
+  }
+  report.fix = fix;
+  report.nis = update->nis;
+  misses_ = 0;
+  state_ = filter_.ready() ? VisionState::kTracking : VisionState::kWarmingUp;
+  compareWithPast(fix, report);
+}
+
+void VisionStep::miss(const std::string& reason, VisionReport& report) {
+  report.reason = reason;
+  if (state_ == VisionState::kSearching) {
+    return;
+  }
+  ++misses_;
+  if (misses_ >= cell_.vision.lost_after_frames || filter_.lost()) {
+    restart();
+  }
+}
+
+void VisionStep::compareWithPast(const HookFix& fix, VisionReport& report) {
+  while (past_.size() > 1 && fix.time - past_[1].time >= kErrorHorizon) {
+    past_.pop_front();
+  }
+  // Half a frame of tolerance: the horizon need not be a multiple of the frame period.
+  const double tolerance = 0.5 / cell_.vision.rate_hz;
+  if (!past_.empty() && std::abs(fix.time - past_.front().time - kErrorHorizon) < tolerance) {
+    const Outcome<HookEstimate> then = predictHook(past_.front(), fix.time);
+    if (then) {
+      const Eigen::Vector3d seen = (fMc1_ * fix.c1Mo).translation();
+      report.error_100ms_m = (then->fMo.translation() - seen).norm();
+    }
+  }
+  if (const std::optional<HookFilterState> now = filter_.state(); now && now->ready) {
+    past_.push_back(*now);
+  }
+}
+
+void VisionStep::restart() {
+  filter_.restart();
+  past_.clear();
+  misses_ = 0;
+  state_ = VisionState::kSearching;
+  windows_ = search_windows_;
+}
+
+std::optional<HookFilterState> VisionStep::estimate() const {
+  return state_ == VisionState::kSearching ? std::nullopt : filter_.state();
+}
+
+double VisionStep::rateHz() const {
+  return state_ == VisionState::kSearching ? cell_.vision.search_rate_hz : cell_.vision.rate_hz;
+}
+
+void VisionStep::planWindows(Time next_exposure) {
+  const Outcome<HookEstimate> next = filter_.predict(next_exposure);
+  if (state_ == VisionState::kSearching || !next) {
+    windows_ = search_windows_;
+    return;
+  }
+  SearchWindowOptions options;
+  options.margin_px = sight_.margin_px;
+  const Pose c1Mo = fMc1_.inverse() * next->fMo;
+  for (int side = 0; side < 2; ++side) {
+    const Window rectified =
+        searchWindow(rectifier_.view(side), c1Mo, next->covariance, sight_.outline_o, options);
+    const Window raw = rectifier_.rawWindow(side, rectified);
+    windows_[side] = raw.empty() ? search_windows_[side] : raw;
+  }
+}
+
+}  // namespace ringhook

@@ -1,0 +1,116 @@
+#include "cycle/yaml_fields.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+
+namespace ringhook {
+
+YamlFields::YamlFields(std::filesystem::path file, std::string name, YAML::Node node)
+    : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {}
+
+YamlFields YamlFields::open(const std::filesystem::path& file) {
+  YAML::Node node;
+  try {
+    node = YAML::LoadFile(file.string());
+  } catch (const YAML::BadFile&) {
+    throw InputError("cannot read " + file.string() + ": expected a YAML file");
+  } catch (const YAML::Exception& e) {
+    throw InputError(file.string() + ", line " + std::to_string(e.mark.line + 1) +
+                     ": not valid YAML: " + e.msg);
+  }
+  if (!node.IsMap()) {
+    throw InputError(file.string() + ": expected a mapping of fields at the top");
+  }
+  return {file, "", node};
+}
+
+YamlFields YamlFields::section(const std::string& key) {
+  const YAML::Node node = require(key);
+  if (!node.IsMap()) {
+    fail(key, node, "a mapping of fields");
+  }
+  return {file_, name_ + key + ".", node};
+}
+
+bool YamlFields::has(const std::string& key) const { return static_cast<bool>(node_[key]); }
+
+std::string YamlFields::text(const std::string& key) {
+  const YAML::Node node = require(key);
+  if (!node.IsScalar() || node.Scalar().empty()) {
+    fail(key, node, "a text");
+  }
+  return node.Scalar();
+}
+
+std::filesystem::path YamlFields::path(const std::string& key) {
+  const std::filesystem::path named = text(key);
+  return named.is_absolute() ? named : (file_.parent_path() / named).lexically_normal();
+}
+
+double YamlFields::number(const std::string& key, double low, double high) {
+  const YAML::Node node = require(key);
+  double value = 0.0;
+  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
+    fail(key, node, "a number");
+  }
+  if (value < low || value > high) {
+    fail(key, node, "a number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return value;
+}
+
+int YamlFields::integer(const std::string& key, int low, int high) {
+  const YAML::Node node = require(key);
+  int value = 0;
+  if (!node.IsScalar() || !YAML::convert<int>::decode(node, value) || value < low || value > high) {
+    fail(key, node, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return value;
+}
+
+Eigen::VectorXd YamlFields::vector(const std::string& key, int size) {
+  const YAML::Node node = require(key);
+  const std::string expected = std::to_string(size) + " numbers in [ ]";
+  if (!node.IsSequence() || static_cast<int>(node.size()) != size) {
+    fail(key, node, expected);
+  }
+  Eigen::VectorXd values(size);
+  for (int i = 0; i < size; ++i) {
+    const YAML::Node element = node[i];
+    if (!element.IsScalar() || !YAML::convert<double>::decode(element, values[i]) ||
+        !std::isfinite(values[i])) {
+      fail(key, node, expected);
+    }
+  }
+  return values;
+}
+
+void YamlFields::refuseUnknown() const {
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.Scalar();
+    if (!asked_.contains(key)) {
+      throw InputError(file_.string() + ", line " + std::to_string(entry.first.Mark().line + 1) +
+                       ": unknown field " + name_ + key);
+    }
+  }
+}
+
+YAML::Node YamlFields::require(const std::string& key) {
+  asked_.insert(key);
+  const YAML::Node node = std::as_const(node_)[key];
+  if (!node) {
+    throw InputError(file_.string() + ", line " + std::to_string(node_.Mark().line + 1) +
+                     ": field " + name_ + key + " is missing");
+  }
+  return node;
+}
+
+void YamlFields::fail(const std::string& key, const YAML::Node& node,
+                      const std::string& expected) const {
+  throw InputError(file_.string() + ", line " + std::to_string(node.Mark().line + 1) + ": field " +
+                   name_ + key + ": expected " + expected);
+}
+
+}  // namespace ringhook
