@@ -1,0 +1,85 @@
+#pragma once
+
+/// \file
+/// Everything that may differ from one simulated cell to the next, with the default cell's values:
+/// belt, hooks, rings, arm errors, gripper, air, and the ranges of their seeded randomisation. The
+/// estimator never shares these numbers: it has to find pendulum length, damping and belt speed by
+/// itself, and every seed makes them differ a little from the nominal ones given here.
+
+#include <cstdint>
+#include <functional>
+
+#include "core/joints.h"
+
+namespace ringhook {
+
+/// Overhead belt, moving along +y_f.
+struct BeltOptions {
+  double x = 0.42;             ///< of the pivots in f [m]
+  double pivot_z = 1.05;       ///< of the pivots in f [m]
+  double start_y = -0.65;      ///< first hook's pivot in f at time zero [m]
+  double entry_y = -0.65;      ///< hooks hang locked upstream of here, and swing from here on [m]
+  double speed = 0.05;         ///< mean, along +y_f [m/s]
+  double speed_spread = 0.02;  ///< actual mean speed is speed * (1 + uniform(-spread, +spread))
+  double variation = 0.0;      ///< amplitude of a sinusoidal change, as a fraction of speed
+  double variation_period = 3.0;  ///< of that change [s]
+  /// Factor on the mean speed at a time [s]; replaces the sinusoid. Empty: none.
+  std::function<double(double)> profile;
+};
+
+/// Hooks on the belt; their shape is in hook_body.h.
+struct HookOptions {
+  int count = 3;
+  double spacing = 0.80;             ///< between pivots, each one upstream of the last [m]
+  double swing_about_x = 0.0523599;  ///< amplitude at the entry, swing along the belt [rad]
+  double swing_about_y = 0.0523599;  ///< amplitude at the entry, swing towards the cameras [rad]
+  double length_spread = 0.02;       ///< pivot height above o is 0.450 * (1 + uniform(-s, +s))
+  double pivot_friction = 2e-4;      ///< Coulomb, each hinge [N m]
+  double pivot_damping = 5e-4;       ///< viscous, each hinge [N m s/rad]
+  double damping_spread = 0.30;      ///< on both of the above, each times (1 + uniform(-s, +s))
+};
+
+/// Steel rings waiting in the feeder's magazine.
+struct RingOptions {
+  int count = 6;
+  double clearance = 0.013;      ///< inner radius minus half the bar's diagonal [m]
+  double wire_diameter = 0.006;  ///< [m]
+  int segments = 32;             ///< capsules that make up the torus, at least 24
+  double friction = 0.25;        ///< steel on steel, sliding
+
+  /// From the ring's centre to the wire's inside [m].
+  [[nodiscard]] double innerRadius() const { return clearance + 0.0067; }
+  /// From the ring's centre to the wire's centreline [m].
+  [[nodiscard]] double radius() const { return innerRadius() + 0.5 * wire_diameter; }
+};
+
+/// The arm's start and its errors.
+struct ArmOptions {
+  /// Nominal joints at time zero [rad]: ring at about (0.26, -0.25, 0.66) m, placing orientation.
+  JointVector initial_joints = JointVector::Zero();
+  /// Standard deviation of each joint's constant zero error [rad]; at the placing pose it moves
+  /// the ring by 0.18 mm per axis (root mean square over axes and seeds).
+  double zero_error_sigma = 2.8e-4;
+};
+
+/// Gripper and feeder: see cell_model.h.
+struct GripperOptions {
+  double rim_distance = 0.12;     ///< from the flange to the gripped wire's centreline, on z_e [m]
+  double opening_angle = 1.5708;  ///< of each jaw [rad]
+  /// The feeder hands a ring to a closing empty gripper unless a hook's o is nearer than this [m].
+  double feeder_clearance = 0.20;
+};
+
+struct CellOptions {
+  std::uint64_t seed = 1;         ///< of every random draw in the cell
+  double physics_step = 0.0005;   ///< [s]; whole microseconds
+  double air_density = 1.2;       ///< [kg/m^3]; zero for vacuum
+  double air_viscosity = 1.8e-5;  ///< [Pa s]; zero for vacuum
+  BeltOptions belt;
+  HookOptions hook;
+  RingOptions ring;
+  ArmOptions arm;
+  GripperOptions gripper;
+};
+
+}  // namespace ringhook

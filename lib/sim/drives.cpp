@@ -1,0 +1,68 @@
+#include "sim/drives.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "sim/cell_state.h"
+
+namespace ringhook {
+namespace {
+
+/// Acceleration that takes a joint from its state to `goal` in one step.
+double deadBeat(double position, double velocity, double goal, double step) {
+  return ((goal - position) / step - velocity) / step;
+}
+
+void moveSetPoints(CellState& cell) {
+  const double step = cell.options.physics_step;
+  const JointLimits& limits = simulatedRx60Limits();
+  if (cell.steps >= cell.command_ends) {
+    cell.velocity.setZero();
+  }
+  cell.set_point =
+      (cell.set_point + step * cell.velocity).cwiseMax(limits.lower).cwiseMin(limits.upper);
+  const double middle = (static_cast<double>(cell.steps) + 0.5) * step;
+  cell.belt_set_point += step * beltSpeed(cell.options, cell.draw, middle);
+}
+
+}  // namespace
+
+const JointLimits& simulatedRx60Limits() {
+  static const JointLimits limits = [] {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    JointLimits l;
+    l.lower << -160.0, -127.5, -134.5, -270.0, -109.5, -270.0;
+    l.upper << 160.0, 127.5, 134.5, 270.0, 120.5, 270.0;
+    l.velocity << 287.0, 287.0, 319.0, 410.0, 320.0, 700.0;
+    l.acceleration << 1500.0, 1500.0, 2000.0, 2500.0, 2000.0, 4000.0;
+    l.lower *= kDegree;
+    l.upper *= kDegree;
+    l.velocity *= kDegree;
+    l.acceleration *= kDegree;
+    return l;
+  }();
+  return limits;
+}
+
+void driveMotions(CellState& cell) {
+  const mjModel* m = cell.model.get();
+  mjData* d = cell.data.get();
+  const double step = cell.options.physics_step;
+  moveSetPoints(cell);
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(m->nv);
+  for (int i = 0; i < 6; ++i) {
+    acceleration[cell.arm_dof[i]] = deadBeat(d->qpos[cell.arm_qpos[i]], d->qvel[cell.arm_dof[i]],
+                                             cell.set_point[i] + cell.draw.zero_error[i], step);
+  }
+  acceleration[cell.belt_dof] =
+      deadBeat(d->qpos[cell.belt_qpos], d->qvel[cell.belt_dof], cell.belt_set_point, step);
+  Eigen::VectorXd force(m->nv);
+  mj_mulM(m, d, force.data(), acceleration.data());
+  const auto apply = [&](int dof) {
+    d->qfrc_applied[dof] = force[dof] + d->qfrc_bias[dof] - d->qfrc_passive[dof];
+  };
+  std::for_each(std::begin(cell.arm_dof), std::end(cell.arm_dof), apply);
+  apply(cell.belt_dof);
+}
+
+}  // namespace ringhook

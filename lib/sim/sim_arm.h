@@ -1,0 +1,35 @@
+#pragma once
+
+/// \file
+/// The simulated cell's arm behind the Arm interface, in the same process and in virtual time:
+/// waitState() moves the whole cell on by one state period of 4 ms. It reports the encoders, which
+/// know nothing of the arm's kinematic errors, and differentiates them for the velocity.
+
+#include "robot/arm.h"
+#include "sim/cell_world.h"
+
+namespace ringhook {
+
+class SimArm : public Arm {
+ public:
+  static constexpr double kPeriod = 0.004;  ///< between state messages [s]
+
+  /// The world must outlive the arm.
+  explicit SimArm(CellWorld& world);
+
+  [[nodiscard]] ArmState waitState() override;
+  /// Throws DeviceError also while stopped, and if the period would end beyond a joint's range.
+  void commandVelocity(const JointVector& joint_velocity) override;
+  void stop() noexcept override;
+  void rearm() override;
+  void setGripper(bool closed) override;
+
+ private:
+  [[noreturn]] void refuse(const std::string& why);
+
+  CellWorld& world_;
+  JointVector last_position_;  ///< of the state before [rad]
+  bool stopped_ = false;
+};
+
+}  // namespace ringhook
