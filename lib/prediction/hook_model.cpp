@@ -47,15 +47,33 @@ Matrix6X measurementMatrix(const HookFilterOptions& options) {
   return C;
 }
 
-// White noise on phi'' that pays for a wrong length: an error s of L leaves the acceleration
-// (s/L) w^2 phi out, a sine that stays alike for about 1/w.
-double swingDensity(const HookBelief& belief, int axis, const HookFilterOptions& options) {
-  const double w2 = options.gravity / options.pendulum_length_m;
+double frequency(const HookFilterOptions& options) {
+  return std::sqrt(options.gravity / options.pendulum_length_m);
+}
+
+// Square of the swing's amplitude as the state has it [rad^2].
+double squaredAmplitude(const HookBelief& belief, int axis, const HookFilterOptions& options) {
   const double phi = belief.mean(kSwing + 3 * axis);
-  const double rate = belief.mean(kSwing + 3 * axis + 1) / options.pendulum_length_m;
-  const double amplitude2 = phi * phi + rate * rate / w2;
-  const double missing = options.length_sigma_m / options.pendulum_length_m * w2;
-  return options.swing_density + 0.5 * missing * missing * amplitude2 / std::sqrt(w2);
+  const double v = belief.mean(kSwing + 3 * axis + 1);
+  return phi * phi + v * v / (options.gravity * options.pendulum_length_m);
+}
+
+// White noise on phi'' that pays for what the linear law leaves out. A wrong length misses the part
+// s/L of the pull, sin(phi) = phi in the mean the part a^2/8 of it, a the whole amplitude; what is
+// missed is a sine of that part of w^2 phi, alike for about 1/w.
+double swingDensity(const HookBelief& belief, int axis, const HookFilterOptions& options) {
+  const double w = frequency(options);
+  const double whole = squaredAmplitude(belief, 0, options) + squaredAmplitude(belief, 1, options);
+  const double part = std::hypot(options.length_sigma_m / options.pendulum_length_m, whole / 8.0);
+  return options.swing_density +
+         0.5 * part * part * w * w * w * squaredAmplitude(belief, axis, options);
+}
+
+// A suspension that turns about y before x, or a chain, adds up to swing_x * swing_y to the yaw: a
+// sine of 2w, of mean square rate (w a_x a_y)^2 / 2, alike for about 1/(2w).
+double yawDensity(const HookBelief& belief, const HookFilterOptions& options) {
+  return options.yaw_density + 0.25 * frequency(options) * squaredAmplitude(belief, 0, options) *
+                                   squaredAmplitude(belief, 1, options);
 }
 
 void fillSwings(const HookBelief& belief, double dt, const HookFilterOptions& options, MatrixX& A,
@@ -68,7 +86,7 @@ void fillSwings(const HookBelief& belief, double dt, const HookFilterOptions& op
     Q.block<2, 2>(at, at) = walk.noise;
     Q(at + 2, at + 2) = options.rest_density * std::abs(dt);
   }
-  Q(kYaw, kYaw) = options.yaw_density * std::abs(dt);
+  Q(kYaw, kYaw) = yawDensity(belief, options) * std::abs(dt);
 }
 
 void fillTurns(double dt, const HookFilterOptions& options, MatrixX& A, MatrixX& Q) {
@@ -82,7 +100,7 @@ void fillTurns(double dt, const HookFilterOptions& options, MatrixX& A, MatrixX&
 }
 
 Eigen::VectorXd priorSigmas(const HookFilterOptions& options) {
-  const double w = std::sqrt(options.gravity / options.pendulum_length_m);
+  const double w = frequency(options);
   const double anywhere = 1.0;  // [m, rad] about the first fix
   Eigen::VectorXd sigma(stateSize(options));
   sigma.head<3>().setConstant(anywhere);
