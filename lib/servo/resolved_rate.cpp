@@ -22,7 +22,7 @@ double brakingSpeed(double distance, double acceleration, double period_s) {
   return std::max(0.0, std::sqrt(2.0 * acceleration * distance) - 0.5 * acceleration * period_s);
 }
 
-/// Speed limits, and if position counts, braking ahead of the position limits.
+/// Speeds from which every joint still stops ahead of its position limits.
 Box positionBox(const JointVector& q, const JointLimits& limits, double period_s) {
   Box box;
   for (int i = 0; i < 6; ++i) {
@@ -32,7 +32,7 @@ Box positionBox(const JointVector& q, const JointLimits& limits, double period_s
   return box;
 }
 
-/// Greatest factor up to 1 that brings v into the box, component by component away from zero.
+/// Greatest factor up to 1 that brings the whole of v into the box.
 double scaleInto(const Box& box, const JointVector& v) {
   double scale = 1.0;
   for (int i = 0; i < 6; ++i) {

@@ -34,8 +34,9 @@ struct JointVelocityOutcome {
   bool speed_limited = false;
   bool position_limited = false;  ///< slowed down ahead of a joint limit
   bool acceleration_limited = false;
-  bool bad_input = false;  ///< something was not finite, or a limit not positive: the arm is slowed
-                           ///< down to rest as fast as the limits allow
+  /// Something was not finite, or a limit not positive: the arm is slowed down to rest as fast as
+  /// the limits allow, at once where limits or previous velocity mean nothing.
+  bool bad_input = false;
 
   [[nodiscard]] bool limited() const {
     return speed_limited || position_limited || acceleration_limited || bad_input;
