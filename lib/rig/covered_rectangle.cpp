@@ -1,6 +1,7 @@
 #include "rig/covered_rectangle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ringhook {
@@ -8,7 +9,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kCoarseRows = 24;
+constexpr std::size_t kCoarseRows = 24;
 constexpr double kFinestStep = 0.25;  // [px]
 
 struct Span {
@@ -39,21 +40,28 @@ struct Rows {
   Span span;
 };
 
-Rows rectangleOf(const std::vector<Vector2d>& polygon, double top, double bottom) {
-  const Span a = spanAt(polygon, top);
-  const Span b = spanAt(polygon, bottom);
+Rows between(double top, const Span& a, double bottom, const Span& b) {
   Rows rows{top, bottom, 0.0, {std::max(a.left, b.left), std::min(a.right, b.right)}};
   rows.area = std::max(0.0, rows.span.right - rows.span.left) * std::max(0.0, bottom - top);
   return rows;
 }
 
+Rows rectangleOf(const std::vector<Vector2d>& polygon, double top, double bottom) {
+  return between(top, spanAt(polygon, top), bottom, spanAt(polygon, bottom));
+}
+
 Rows coarseSearch(const std::vector<Vector2d>& polygon, double low, double high) {
+  std::array<double, kCoarseRows + 1> rows{};
+  std::array<Span, kCoarseRows + 1> spans;
+  for (std::size_t i = 0; i <= kCoarseRows; ++i) {
+    rows[i] = low + (high - low) * static_cast<double>(i) / kCoarseRows;
+    spans[i] = spanAt(polygon, rows[i]);
+  }
   Rows best;
-  const double step = (high - low) / kCoarseRows;
-  for (int a = 0; a < kCoarseRows; ++a) {
-    for (int b = a + 1; b <= kCoarseRows; ++b) {
-      const Rows rows = rectangleOf(polygon, low + a * step, low + b * step);
-      best = rows.area > best.area ? rows : best;
+  for (std::size_t a = 0; a < kCoarseRows; ++a) {
+    for (std::size_t b = a + 1; b <= kCoarseRows; ++b) {
+      const Rows now = between(rows[a], spans[a], rows[b], spans[b]);
+      best = now.area > best.area ? now : best;
     }
   }
   return best;
