@@ -34,7 +34,7 @@ struct HookFilterOptions {
   Pose fMc1 = Pose::Identity();              ///< left camera in the robot reference frame
   Eigen::Vector3d pivot_o{0.0, 0.0, 0.450};  ///< pivot in the hook frame [m]
   double pendulum_length_m = 0.35;           ///< nominal effective length of the hook, from CAD
-  double length_sigma_m = 0.007;             ///< how well it is known; also pays for sin(phi) = phi
+  double length_sigma_m = 0.007;             ///< how well it is known; process noise follows
   double mass_kg = 0.4;                      ///< of the hook; only damping/mass acts
   double damping_kg_per_s = 0.01;            ///< D of equation 5.18
   double gravity = 9.81;                     ///< [m/s^2]
@@ -48,7 +48,7 @@ struct HookFilterOptions {
   double pivot_jerk_density = 1e-7;  ///< the belt's speed is nearly constant [m^2/s^5]
   double swing_density = 1e-6;       ///< phi'': pivot friction, joints of the belt [rad^2/s^3]
   double rest_density = 1e-9;        ///< walk of the rest angles [rad^2/s]
-  double yaw_density = 1e-8;         ///< walk of yaw: two hinges turn it a little [rad^2/s]
+  double yaw_density = 1e-8;         ///< walk of yaw, besides what swinging adds [rad^2/s]
 
   // Process noise of kConstantAcceleration: a swing of 3 deg has 3 m/s^3 of jerk.
   double hook_jerk_density = 1.0;  ///< of o [m^2/s^5]
