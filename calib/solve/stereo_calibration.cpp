@@ -172,6 +172,11 @@ StereoCalibration calibrateStereo(const StereoViews& found, const Chessboard& bo
     all.insert(all.end(), rows[i].begin(), rows[i].end());
   }
   result.heldout_vertical_disparity_px = rootMeanSquare(all);
+  if (!std::isfinite(result.heldout_vertical_disparity_px)) {
+    throw Error(
+        "the lens model folds back inside the image when a view is left out: use fewer distortion "
+        "coefficients, or add views with the board near the image corners");
+  }
   fillEvidence(result, board);
   result.verdict = judge(result);
   hook(1.0, "done");

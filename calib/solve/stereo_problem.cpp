@@ -2,12 +2,11 @@
 
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
+#include <glog/logging.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <utility>
 
 #include "core/error.h"
@@ -77,6 +76,31 @@ struct RightResidual {
   }
 };
 
+// k4 k5 k6 can cancel k1 k2 k3 and grow without bound where the corners do not tell them apart. A
+// weak prior, zero with a standard deviation of one, keeps the lens regular; one step of it weighs
+// as much as one residual of a tenth of a pixel.
+struct DenominatorPrior {
+  template <class T>
+  bool operator()(const T* lens, T* residual) const {
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = 0.1 * lens[9 + i];
+    }
+    return true;
+  }
+};
+
+// Ceres warns through glog of steps that it takes back by itself; its summary is what counts.
+class QuietLog {
+ public:
+  QuietLog() : level_(FLAGS_minloglevel) { FLAGS_minloglevel = google::GLOG_FATAL; }
+  ~QuietLog() { FLAGS_minloglevel = level_; }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+ private:
+  int level_;
+};
+
 LensBlock blockOf(const CameraModel& model) {
   LensBlock block{model.K(0, 0), model.K(1, 1), model.K(0, 2), model.K(1, 2)};
   for (int i = 0; i < model.distortion.size(); ++i) {
@@ -122,7 +146,17 @@ struct Bundle {
         addCorner(points[j], views[i].left[j], views[i].right[j], c1Mt[i].data());
       }
     }
+    if (terms == LensTerms::kEight) {
+      addPrior(left.data());
+      addPrior(right.data());
+    }
     holdUnusedTerms(terms);
+  }
+
+  void addPrior(double* lens) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<DenominatorPrior, 3, kLensSize>(new DenominatorPrior),
+        nullptr, lens);
   }
 
   void addCorner(const Eigen::Vector3d& point_t, const Eigen::Vector2d& seen_left,
@@ -160,9 +194,10 @@ StereoSolution refineSolution(const StereoSolution& start, const std::vector<Ste
   options.parameter_tolerance = 1e-12;
   options.gradient_tolerance = 1e-12;
   options.logging_type = ceres::SILENT;
+  const QuietLog quiet;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &bundle.problem, &summary);
-  if (!summary.IsSolutionUsable()) {
+  if (summary.termination_type != ceres::CONVERGENCE) {
     throw Error("the stereo calibration does not converge (" + summary.message +
                 "): take more pictures with the board tilted in different directions");
   }
@@ -180,6 +215,7 @@ std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
                                        const std::vector<StereoView>& views,
                                        const Chessboard& board, LensTerms terms, double sigma_px) {
   Bundle bundle(solution, views, board, terms);
+  const QuietLog quiet;
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
   ceres::Covariance covariance(options);
@@ -200,67 +236,6 @@ std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
   const double focal_variance =
       std::max(left.diagonal().head<2>().maxCoeff(), right.diagonal().head<2>().maxCoeff());
   return Uncertainty{sigma_px * std::sqrt(focal_variance), sigma_px * std::sqrt(baseline_variance)};
-}
-
-std::vector<ViewError> viewErrors(const StereoSolution& solution,
-                                  const std::vector<StereoView>& views, const Chessboard& board) {
-  const std::vector<Eigen::Vector3d> points = board.points();
-  const auto residual2 = [](const CameraModel& camera, const Eigen::Vector3d& point_c,
-                            const Eigen::Vector2d& seen) {
-    return (projectNormalised(camera, point_c.hnormalized()) - seen).squaredNorm();
-  };
-  std::vector<ViewError> errors;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    double left = 0.0;
-    double right = 0.0;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const Eigen::Vector3d point_c1 = solution.c1Mt[i] * points[j];
-      left += residual2(solution.rig.left, point_c1, views[i].left[j]);
-      right += residual2(*solution.rig.right, solution.rig.c2Mc1 * point_c1, views[i].right[j]);
-    }
-    const auto n = static_cast<double>(points.size());
-    errors.push_back(
-        {std::sqrt(left / n), std::sqrt(right / n), std::sqrt((left + right) / (2 * n))});
-  }
-  return errors;
-}
-
-double rms(const std::vector<ViewError>& errors) {
-  double sum = 0.0;
-  for (const ViewError& e : errors) {
-    sum += e.both_px * e.both_px;
-  }
-  return std::sqrt(sum / static_cast<double>(errors.size()));
-}
-
-int redundancy(std::size_t views, const Chessboard& board, LensTerms terms) {
-  const int n = static_cast<int>(views);
-  const int residuals = 4 * n * static_cast<int>(board.size());
-  return residuals - 2 * (4 + static_cast<int>(terms)) - kPoseSize * (n + 1);
-}
-
-std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view) {
-  // Both cameras turn half way towards each other, then together until the baseline is along x.
-  const CameraModel& right = rig.right.value();
-  const Eigen::AngleAxisd c2Rc1(rig.c2Mc1.linear());
-  const Eigen::Quaterniond half(Eigen::AngleAxisd(0.5 * c2Rc1.angle(), c2Rc1.axis()));
-  const Eigen::Vector3d along = half.conjugate() * rig.c2Mc1.translation();
-  const Eigen::Vector3d x_axis = (along.x() < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::UnitX();
-  const auto level = Eigen::Quaterniond::FromTwoVectors(along, x_axis);
-  const double focal = 0.25 * (rig.left.K(0, 0) + rig.left.K(1, 1) + right.K(0, 0) + right.K(1, 1));
-  const auto row = [&](const CameraModel& camera, const Eigen::Quaterniond& turn,
-                       const Eigen::Vector2d& pixel) {
-    const Outcome<Eigen::Vector2d> ray = undistortPixel(camera, pixel);
-    return ray ? focal * (turn * ray->homogeneous()).hnormalized().y()
-               : std::numeric_limits<double>::infinity();
-  };
-  std::vector<double> differences;
-  for (std::size_t j = 0; j < view.left.size(); ++j) {
-    const double d = row(rig.left, level * half, view.left[j]) -
-                     row(right, level * half.conjugate(), view.right[j]);
-    differences.push_back(std::isfinite(d) ? d : std::numeric_limits<double>::infinity());
-  }
-  return differences;
 }
 
 }  // namespace ringhook

@@ -71,8 +71,8 @@ struct Uncertainty {
 StereoSolution startSolution(const std::vector<StereoView>& views, const Chessboard& board,
                              LensTerms terms);
 
-/// Refines everything from `start`, which has one c1Mt per view, to the minimum. Throws Error if
-/// the minimum is not reached.
+/// Refines everything from `start`, which has one c1Mt per view, to the minimum. With eight
+/// terms k4 k5 k6 carry a weak prior (see the source). Throws Error if the minimum is not reached.
 StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
                               const Chessboard& board, LensTerms terms);
 
