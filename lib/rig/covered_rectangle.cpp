@@ -98,6 +98,31 @@ bool rowCovered(int y, const Window& w, const std::function<bool(int, int)>& cov
   return true;
 }
 
+/// Drops each border line that has an uncovered pixel, `trim` pixels at its ends not looked at;
+/// false if none had.
+bool shrinkOnce(Window& w, int trim, const std::function<bool(int, int)>& covered) {
+  const Window before = w;
+  const Window inner{w.x + trim, w.y + trim, w.width - 2 * trim, w.height - 2 * trim};
+  const int right = w.x + w.width - 1;
+  const int bottom = w.y + w.height - 1;
+  if (!rowCovered(w.y, inner, covered)) {
+    w = {w.x, w.y + 1, w.width, w.height - 1};
+  }
+  if (!rowCovered(bottom, inner, covered)) {
+    w.height -= 1;
+  }
+  if (w != before && trim == 0) {
+    return true;
+  }
+  if (!columnCovered(w.x, inner, covered)) {
+    w = {w.x + 1, w.y, w.width - 1, w.height};
+  }
+  if (!columnCovered(right, inner, covered)) {
+    w.width -= 1;
+  }
+  return w != before;
+}
+
 }  // namespace
 
 Window coveredRectangle(const std::vector<Vector2d>& polygon, const Window& bounds,
@@ -122,24 +147,8 @@ Window coveredRectangle(const std::vector<Vector2d>& polygon, const Window& boun
   Window w = intersect({x, y, static_cast<int>(std::ceil(best.span.right)) + 2 - x,
                         static_cast<int>(std::ceil(best.bottom)) + 2 - y},
                        bounds);
-  for (bool shrunk = true; shrunk && !w.empty();) {
-    const Window inner{w.x + 2, w.y + 2, w.width - 4, w.height - 4};
-    shrunk = false;
-    if (!rowCovered(w.y, inner, covered)) {
-      w = {w.x, w.y + 1, w.width, w.height - 1};
-      shrunk = true;
-    }
-    if (!w.empty() && !rowCovered(w.y + w.height - 1, inner, covered)) {
-      w.height -= 1;
-      shrunk = true;
-    }
-    if (!w.empty() && !columnCovered(w.x, inner, covered)) {
-      w = {w.x + 1, w.y, w.width - 1, w.height};
-      shrunk = true;
-    }
-    if (!w.empty() && !columnCovered(w.x + w.width - 1, inner, covered)) {
-      w.width -= 1;
-      shrunk = true;
+  for (const int trim : {2, 0}) {  // sides first, so that one bad corner costs one line only
+    while (!w.empty() && shrinkOnce(w, trim, covered)) {
     }
   }
   return w;
