@@ -27,7 +27,7 @@ std::string digits(double value) {
   return text;
 }
 
-/// Nanoseconds survive: seconds with nine decimals, made from the integer.
+/// Seconds with nine decimals, made from the whole number of nanoseconds.
 std::string secondsText(Time time) {
   char text[48];
   const long long ns = time.nanoseconds();

@@ -1,0 +1,58 @@
+#pragma once
+
+/// \file
+/// The operator's job on the simulated cell: hang a ring on each of so many passing hooks, judged
+/// by physics. Builds the devices of the cell, runs the loop in virtual time, keeps what it had
+/// when it is interrupted. Everything it returns is a function of the cell file, the scenario and
+/// the seed: no clock is read.
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cycle/hook_sight.h"
+#include "cycle/task_control.h"
+#include "evaluation/servo_witness.h"
+
+namespace ringhook {
+
+struct ServoJob {
+  std::filesystem::path cell_file;
+  std::string scenario;       ///< name beside the cell's own scenario; empty for the cell's own
+  TrackerKind tracker = TrackerKind::kMarker;
+  int cycles = 3;             ///< hooks, one attempt each
+  std::uint64_t seed = 1;
+  std::filesystem::path out;  ///< folder for the sequence and the picture
+};
+
+/// One hook's attempt, as the loop and as physics saw it.
+struct ServoAttempt {
+  AttemptResult loop;
+  AttemptTruth truth;
+};
+
+struct ServoReport {
+  std::string cell;
+  std::string scenario;
+  std::vector<ServoAttempt> attempts;  ///< finished ones
+  LoopStatistics statistics;
+  bool interrupted = false;
+  std::filesystem::path sequence;  ///< recorded cycle; empty if none
+  std::filesystem::path picture;   ///< of the hanging ring; empty if none hung
+};
+
+/// Told after every arm state: attempt counted from 0, its phase, virtual time [s].
+using ServoProgress = std::function<void(int attempt, TaskPhase phase, double time_s)>;
+/// Told after every attempt.
+using AttemptDone = std::function<void(int attempt, const ServoAttempt&)>;
+
+/// Throws InputError for bad files, DeviceError when a device fails; an interruption is no error
+/// here: the report says so and holds what was finished.
+ServoReport runServo(const ServoJob& job, const std::atomic<bool>& stop,
+                     const ServoProgress& progress, const AttemptDone& attempt_done);
+
+}  // namespace ringhook

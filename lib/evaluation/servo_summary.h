@@ -1,0 +1,22 @@
+#pragma once
+
+/// \file
+/// What the servo task tells people and programs: a table, and summary.json (doc/formats.md).
+/// Nothing in it depends on the machine's speed, so the same seed gives the same file.
+
+#include <string>
+
+#include "evaluation/servo_run.h"
+
+namespace ringhook {
+
+/// The table's head, and its row of one attempt: printed while the job goes on.
+std::string servoTableHead();
+std::string servoTableRow(int attempt, const ServoAttempt& result);
+
+std::string servoSummaryJson(const ServoJob& job, const ServoReport& report);
+
+/// Rings that hang by physics.
+int ringsHung(const ServoReport& report);
+
+}  // namespace ringhook

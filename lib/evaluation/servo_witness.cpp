@@ -1,0 +1,130 @@
+#include "evaluation/servo_witness.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "robot/rx60_kinematics.h"
+
+namespace ringhook {
+namespace {
+
+constexpr double kHangTime = 2.0;    // [s] after the release, when physics is asked
+constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
+
+}  // namespace
+
+ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1,
+                           const Eigen::Vector3d& release_o,
+                           std::function<void(const AttemptTruth&)> on_judged)
+    : world_(world),
+      fMc1_(fMc1),
+      release_o_(release_o),
+      on_judged_(std::move(on_judged)),
+      limits_(rx60::limits()) {}
+
+void ServoWitness::startAttempt(SequenceWriter* recording) {
+  recording_ = recording;
+  attempt_ = {};
+  released_at_.reset();
+  judged_ = false;
+}
+
+void ServoWitness::onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) {
+  if (report.state != VisionState::kSearching) {
+    ++statistics_.frames;
+    statistics_.frames_without_fix += report.fix ? 0 : 1;
+  }
+  if (report.fix) {
+    statistics_.nis.add(report.nis);
+    statistics_.frame_age_s.add(age_s);
+  }
+  if (report.error_100ms_m) {
+    statistics_.prediction_error_m.add(*report.error_100ms_m);
+  }
+  if (recording_ != nullptr && report.fix) {
+    recordFrame(frame, report);
+  }
+}
+
+void ServoWitness::recordFrame(const StereoFrame& frame, const VisionReport& report) {
+  recording_->addFrame(frame);
+  const std::optional<Pose> fMo = trueHook(frame.time, fMc1_ * report.fix->c1Mo);
+  if (fMo) {
+    recording_->addTruth(frame.time, fMc1_.inverse() * *fMo);
+  }
+}
+
+std::optional<Pose> ServoWitness::trueHook(Time time, const Pose& near_fMo) const {
+  const auto after = std::find_if(past_.begin(), past_.end(),
+                                  [time](const HookInstant& p) { return p.time >= time; });
+  if (after == past_.end() || (after == past_.begin() && after->time != time)) {
+    return std::nullopt;
+  }
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < after->fMo.size(); ++i) {
+    const auto distance = [&](std::size_t k) {
+      return (after->fMo[k].translation() - near_fMo.translation()).norm();
+    };
+    nearest = distance(i) < distance(nearest) ? i : nearest;
+  }
+  if (after->time == time) {
+    return after->fMo[nearest];
+  }
+  const auto before = std::prev(after);
+  return interpolate(before->fMo[nearest], after->fMo[nearest],
+                     (time - before->time) / (after->time - before->time));
+}
+
+void ServoWitness::onCommand(const ArmState& state, const TaskCommand& command) {
+  const CellTruth cell = truth(world_);
+  HookInstant instant;
+  instant.time = cell.time;
+  for (const HookTruth& hook : cell.hooks) {
+    instant.fMo.push_back(hook.fMo);
+  }
+  past_.push_back(std::move(instant));
+  if (past_.size() > kPastMax) {
+    past_.pop_front();
+  }
+  if (recording_ != nullptr) {
+    recording_->addRobot(state.time, state.position, rx60::forward(rx60::rx60(), state.position));
+  }
+  statistics_.limited_commands += command.limited ? 1 : 0;
+  checkLimits(state);
+  if (command.phase == TaskPhase::kLower) {
+    const Eigen::Vector3d ring_f = cell.fMr.translation();
+    double nearest = 1e9;
+    for (const HookTruth& hook : cell.hooks) {
+      const Eigen::Vector3d ring_o = hook.fMo.inverse() * ring_f;
+      nearest = std::min(nearest, (ring_o - release_o_).head<2>().norm());
+    }
+    attempt_.insertion_error_m.add(nearest);
+  }
+  if (command.close_gripper && !*command.close_gripper) {
+    released_at_ = state.time;
+    attempt_.ring = cell.held_ring;
+  }
+  judge(state.time, cell);
+}
+
+void ServoWitness::judge(Time now, const CellTruth& cell) {
+  if (cell.held_ring >= 0 && !released_at_) {
+    attempt_.peak_contact_n = cell.rings[cell.held_ring].peak_force_in_grip;
+  }
+  if (judged_ || !released_at_ || now - *released_at_ < kHangTime) {
+    return;
+  }
+  judged_ = true;
+  attempt_.hanging = attempt_.ring >= 0 && cell.rings[attempt_.ring].hanging;
+  on_judged_(attempt_);
+}
+
+void ServoWitness::checkLimits(const ArmState& state) {
+  const bool outside = ((state.position - limits_.lower).array() < 0.0).any() ||
+                       ((limits_.upper - state.position).array() < 0.0).any();
+  // Velocity is differentiated position: allow its rounding.
+  const bool fast = (state.velocity.cwiseAbs() - limits_.velocity).maxCoeff() > 1e-6;
+  statistics_.limit_violations += outside || fast ? 1 : 0;
+}
+
+}  // namespace ringhook

@@ -1,0 +1,80 @@
+#pragma once
+
+/// \file
+/// Watches the servo task in the simulated cell and knows the truth: whether the ring hangs two
+/// seconds after it was let go, how hard it touched before, how far the loop's belief was off. It
+/// also records one cycle as a sequence with truth. The loop never learns any of it.
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "camera/sequence_writer.h"
+#include "cycle/servo_loop.h"
+#include "cycle/statistics.h"
+#include "sim/cell_world.h"
+#include "sim/truth.h"
+
+namespace ringhook {
+
+/// What physics says of one attempt.
+struct AttemptTruth {
+  int ring = -1;                    ///< index of the ring that was let go, or -1
+  bool hanging = false;             ///< it hung on a hook two seconds later
+  double peak_contact_n = 0.0;      ///< between hook and ring while gripped, greatest [N]
+  Statistics insertion_error_m;     ///< true ring against true goal line of the tip, lowering [m]
+};
+
+/// What the loop itself could tell, summed over attempts.
+struct LoopStatistics {
+  Statistics prediction_error_m;  ///< fixes against predictions made 100 ms before, at o
+  Statistics frame_age_s;         ///< from mid-exposure to the arm state that was answered with it
+  Statistics nis;                 ///< of the fixes taken; chi-square of 6 if consistent
+  int frames = 0;                 ///< taken while a hook was tracked
+  int frames_without_fix = 0;     ///< of these
+  int limited_commands = 0;       ///< bent by a limit
+  int limit_violations = 0;       ///< arm states outside joint range or nominal speed
+};
+
+class ServoWitness : public LoopObserver {
+ public:
+  /// `fMc1`: true left camera. `on_hanging` is called at the moment of judgement, for a picture.
+  ServoWitness(const CellWorld& world, const Pose& fMc1, const Eigen::Vector3d& release_o,
+               std::function<void(const AttemptTruth&)> on_judged);
+
+  /// Begins an attempt; `recording` gets its frames until it ends, null for none.
+  void startAttempt(SequenceWriter* recording);
+  [[nodiscard]] const AttemptTruth& attempt() const { return attempt_; }
+  [[nodiscard]] const LoopStatistics& statistics() const { return statistics_; }
+
+  void onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) override;
+  void onCommand(const ArmState& state, const TaskCommand& command) override;
+
+ private:
+  struct HookInstant {
+    Time time;
+    std::vector<Pose> fMo;  ///< of each hook
+  };
+
+  void recordFrame(const StereoFrame& frame, const VisionReport& report);
+  [[nodiscard]] std::optional<Pose> trueHook(Time time, const Pose& near_fMo) const;
+  void judge(Time now, const CellTruth& cell);
+  void checkLimits(const ArmState& state);
+
+  const CellWorld& world_;
+  Pose fMc1_;
+  Eigen::Vector3d release_o_;
+  std::function<void(const AttemptTruth&)> on_judged_;
+  SequenceWriter* recording_ = nullptr;
+  AttemptTruth attempt_;
+  LoopStatistics statistics_;
+  std::deque<HookInstant> past_;  ///< of the last tenths of a second
+  std::optional<Time> released_at_;
+  bool judged_ = false;
+  JointLimits limits_;
+};
+
+}  // namespace ringhook
