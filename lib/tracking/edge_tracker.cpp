@@ -37,9 +37,9 @@ double largestShift(const std::vector<PinholeView>& cameras,
 
 struct Judged {
   CameraFeatures features;
-  double square_sum = 0.0;     ///< of the residuals of the features [px^2]
-  double direction_sum = 0.0;  ///< of the refined sites [rad]
-  int refined = 0;
+  double square_sum = 0.0;        ///< of the residuals of the features [px^2]
+  double direction_sum = 0.0;     ///< of the refined sites [rad]
+  std::vector<double> residuals;  ///< of the refined sites [px]
 };
 
 /// Places one camera's sites with sub-pixel accuracy and keeps those that agree with the pose.
@@ -47,7 +47,7 @@ Judged judge(const RectifiedView& view, const std::vector<EdgeSite>& sites, cons
   Judged judged;
   judged.features.camera = view.camera;
   std::vector<EdgeFeature> refined;
-  std::vector<double> residuals;
+  std::vector<double>& residuals = judged.residuals;
   for (const EdgeSite& site : sites) {
     const auto line = projectEdge(view.camera, c1Mo, site.start_o, site.end_o);
     if (!line) {
@@ -59,7 +59,6 @@ Judged judge(const RectifiedView& view, const std::vector<EdgeSite>& sites, cons
       continue;
     }
     judged.direction_sum += fine->direction;
-    ++judged.refined;
     refined.push_back({site.start_o, site.end_o, fine->pixel, 0.0});
     residuals.push_back(line->distance(fine->pixel));
   }
@@ -135,19 +134,21 @@ struct EdgeTracker::Impl {
     quality.sites = visp->searched();
     double squares = 0.0;
     double directions = 0.0;
-    int refined = 0;
+    std::vector<double> residuals;
     for (std::size_t c = 0; c < frame.views.size(); ++c) {
       Judged judged = judge(frame.views[c], visp->sites()[c], seen.c1Mo_start);
       squares += judged.square_sum;
       directions += judged.direction_sum;
-      refined += judged.refined;
+      residuals.insert(residuals.end(), judged.residuals.begin(), judged.residuals.end());
       quality.good_sites += static_cast<int>(judged.features.edges.size());
       if (!judged.features.edges.empty()) {
         seen.cameras.push_back(std::move(judged.features));
       }
     }
     quality.rms_px = std::sqrt(squares / std::max(1, quality.good_sites));
-    quality.direction_deg = directions / std::max(1, refined) * 180.0 / std::numbers::pi;
+    const double refined = std::max<double>(1.0, static_cast<double>(residuals.size()));
+    quality.spread_px = robustSigma(residuals);
+    quality.direction_deg = directions / refined * 180.0 / std::numbers::pi;
     if (const auto doubt = disbelief()) {
       return *doubt;
     }
@@ -161,7 +162,7 @@ struct EdgeTracker::Impl {
     if (quality.good_sites < options.min_good_ratio * quality.sites) {
       return Refusal{"too many sites off the model"};
     }
-    if (!(quality.rms_px <= options.max_rms_px)) {
+    if (!(quality.spread_px <= options.max_spread_px)) {
       return Refusal{"edges too far from the model"};
     }
     if (!(quality.direction_deg <= options.max_direction_deg)) {

@@ -23,6 +23,7 @@ struct EdgeQuality {
   int sites = 0;               ///< sites searched, all cameras
   int good_sites = 0;          ///< sites that became features
   double rms_px = 0.0;         ///< distance of the features from ViSP's pose [px]
+  double spread_px = 0.0;      ///< robust standard deviation of all refined sites from it [px]
   double direction_deg = 0.0;  ///< mean angle between gradient and line normal [deg]
 };
 

@@ -3,16 +3,33 @@
 #include <visp3/mbt/vpMbGenericTracker.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <sstream>
 
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-const std::array<std::string, 2> kCameraNames{"Camera1", "Camera2"};
+/// While alive, what ViSP's model loader prints goes nowhere.
+class QuietStreams {
+ public:
+  QuietStreams()
+      : out_(std::cout.rdbuf(nowhere_.rdbuf())), err_(std::cerr.rdbuf(nowhere_.rdbuf())) {}
+  ~QuietStreams() {
+    std::cout.rdbuf(out_);
+    std::cerr.rdbuf(err_);
+  }
+  QuietStreams(const QuietStreams&) = delete;
+  QuietStreams& operator=(const QuietStreams&) = delete;
+
+ private:
+  std::ostringstream nowhere_;
+  std::streambuf* out_;
+  std::streambuf* err_;
+};
 
 vpHomogeneousMatrix toVisp(const Pose& aMb) {
   vpHomogeneousMatrix M;
@@ -41,7 +58,9 @@ Eigen::Vector3d modelPoint(const vpPoint& p) { return {p.get_oX(), p.get_oY(), p
 class SiteReadingTracker final : public vpMbGenericTracker {
  public:
   explicit SiteReadingTracker(unsigned int cameras)
-      : vpMbGenericTracker(cameras, vpMbGenericTracker::EDGE_TRACKER), sites(cameras) {}
+      : vpMbGenericTracker(cameras, vpMbGenericTracker::EDGE_TRACKER),
+        sites(cameras),
+        names(getCameraNames()) {}
 
   void testTracking() override {
     readSites();
@@ -53,7 +72,7 @@ class SiteReadingTracker final : public vpMbGenericTracker {
     for (std::size_t c = 0; c < sites.size(); ++c) {
       sites[c].clear();
       std::list<vpMbtDistanceLine*> lines;
-      getLline(kCameraNames[c], lines);
+      getLline(names[c], lines);
       for (const vpMbtDistanceLine* line : lines) {
         if (line->isTracked() && line->isVisible()) {
           readLine(*line, sites[c]);
@@ -62,7 +81,8 @@ class SiteReadingTracker final : public vpMbGenericTracker {
     }
   }
 
-  std::vector<std::vector<EdgeSite>> sites;
+  std::vector<std::vector<EdgeSite>> sites;  ///< by camera
+  std::vector<std::string> names;            ///< of the cameras, left first
   int searched = 0;
 
  private:
@@ -131,8 +151,8 @@ struct VispEdges::Impl {
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       vpCameraParameters K;
       K.initPersProjWithoutDistortion(cameras[c].fx, cameras[c].fy, cameras[c].cx, cameras[c].cy);
-      parameters[kCameraNames[c]] = K;
-      transforms[kCameraNames[c]] = toVisp(cameras[c].cMc1 * cameras[0].cMc1.inverse());
+      parameters[tracker.names[c]] = K;
+      transforms[tracker.names[c]] = toVisp(cameras[c].cMc1 * cameras[0].cMc1.inverse());
     }
     tracker.setCameraParameters(parameters);
     if (cameras.size() > 1) {
@@ -160,6 +180,7 @@ struct VispEdges::Impl {
     }
     const std::size_t before = size();
     try {
+      const QuietStreams quiet;
       tracker.loadModel(name, false, toVisp(model.oMmodel));
     } catch (const std::exception& e) {
       throw InputError(name + ": not an edge model that ViSP can read: " + e.what());
@@ -173,16 +194,16 @@ struct VispEdges::Impl {
     std::list<vpMbtDistanceLine*> lines;
     std::list<vpMbtDistanceCylinder*> cylinders;
     std::list<vpMbtDistanceCircle*> circles;
-    tracker.getLline(kCameraNames[0], lines);
-    tracker.getLcylinder(kCameraNames[0], cylinders);
-    tracker.getLcircle(kCameraNames[0], circles);
+    tracker.getLline(tracker.names[0], lines);
+    tracker.getLcylinder(tracker.names[0], cylinders);
+    tracker.getLcircle(tracker.names[0], circles);
     return lines.size() + cylinders.size() + circles.size();
   }
 
   std::map<std::string, const vpImage<unsigned char>*> images() const {
     std::map<std::string, const vpImage<unsigned char>*> all;
     for (std::size_t c = 0; c < canvases.size(); ++c) {
-      all[kCameraNames[c]] = &canvases[c].image;
+      all[tracker.names[c]] = &canvases[c].image;
     }
     return all;
   }
@@ -219,7 +240,7 @@ std::optional<Refusal> VispEdges::start(const Pose& c1Mo) {
   try {
     auto images = impl_->images();
     const std::map<std::string, vpHomogeneousMatrix> poses{
-        {kCameraNames[0], toVisp(impl_->cameras[0].cMc1 * c1Mo)}};
+        {impl_->tracker.names[0], toVisp(impl_->cameras[0].cMc1 * c1Mo)}};
     impl_->tracker.initFromPose(images, poses);
   } catch (const vpException& e) {
     return Refusal{std::string("start pose not usable: ") + e.what()};
@@ -249,7 +270,7 @@ int VispEdges::searched() const { return impl_->tracker.searched; }
 
 std::vector<Eigen::Vector3d> VispEdges::modelPoints() const {
   std::list<vpMbtDistanceLine*> lines;
-  impl_->tracker.getLline(kCameraNames[0], lines);
+  impl_->tracker.getLline(impl_->tracker.names[0], lines);
   std::vector<Eigen::Vector3d> points;
   for (const vpMbtDistanceLine* line : lines) {
     points.push_back(modelPoint(*line->p1));

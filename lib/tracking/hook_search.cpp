@@ -1,0 +1,178 @@
+#include "tracking/hook_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "tracking/edge_field.h"
+
+namespace ringhook {
+namespace {
+
+using Place = Eigen::Vector3d;  // travel [m], angle about x_f, angle about y_f [rad]
+
+constexpr double kCoarseCutoffPx = 24.0;  // The grid's steps move the J by about as much.
+constexpr double kFineCutoffPx = 10.0;
+constexpr double kCoarseSampleM = 0.012;
+constexpr double kFineSampleM = 0.004;
+constexpr std::size_t kRefined = 12;  // Places of the coarse grid that are looked at closely.
+constexpr double kElsewhereM = 0.04;  // Further apart than this is another place.
+
+struct Match {
+  Place place;
+  double score;
+};
+
+/// Mean nearness of the projected model to like image edges over all views, 0 to 1.
+double scoreOf(const std::vector<EdgeField>& fields, const std::vector<EdgeSample>& samples,
+               const Pose& c1Mo) {
+  constexpr double kAhead = 1e-3;  // second point along the edge, for its direction [m]
+  double sum = 0.0;
+  for (const EdgeField& field : fields) {
+    const PinholeView& camera = field.camera();
+    const Pose cMo = camera.cMc1 * c1Mo;
+    for (const EdgeSample& sample : samples) {
+      const Eigen::Vector3d p = cMo * sample.point_o;
+      const Eigen::Vector3d q = p + kAhead * (cMo.linear() * sample.tangent_o);
+      if (p.z() < kAhead || q.z() < kAhead) {
+        continue;
+      }
+      const Eigen::Vector2d a(camera.fx * p.x() / p.z(), camera.fy * p.y() / p.z());
+      const Eigen::Vector2d b(camera.fx * q.x() / q.z(), camera.fy * q.y() / q.z());
+      sum += field.nearness(a + Eigen::Vector2d(camera.cx, camera.cy), b - a);
+    }
+  }
+  return sum / (255.0 * static_cast<double>(std::max<std::size_t>(1, samples.size()) *
+                                            std::max<std::size_t>(1, fields.size())));
+}
+
+class Search {
+ public:
+  Search(const RectifiedFrame& frame, const EdgeModel& model, const SearchSpace& space)
+      : space_(space),
+        coarse_samples_(sampleEdges(model, kCoarseSampleM)),
+        fine_samples_(sampleEdges(model, kFineSampleM)) {
+    for (const RectifiedView& view : frame.views) {
+      coarse_.emplace_back(view, kCoarseCutoffPx);
+      fine_.emplace_back(view, kFineCutoffPx);
+    }
+  }
+
+  Pose c1Mo(const Place& place) const {
+    return space_.fMc1.inverse() * hookAt(space_, place.x(), place.y(), place.z());
+  }
+
+  /// The best places of the grid, no two of them next to each other.
+  std::vector<Match> coarse() const {
+    std::vector<Match> all;
+    const Place step(space_.travel_step_m, space_.swing_step, space_.swing_step);
+    for (double s = space_.travel_from_m; s <= space_.travel_to_m; s += step.x()) {
+      for (double a = -space_.swing_x; a <= space_.swing_x; a += step.y()) {
+        for (double b = -space_.swing_y; b <= space_.swing_y; b += step.z()) {
+          const Place place(s, a, b);
+          all.push_back({place, scoreOf(coarse_, coarse_samples_, c1Mo(place))});
+        }
+      }
+    }
+    std::sort(all.begin(), all.end(), [](auto& a, auto& b) { return a.score > b.score; });
+    std::vector<Match> best;
+    for (std::size_t i = 0; i < all.size() && best.size() < kRefined; ++i) {
+      const bool new_place = std::none_of(best.begin(), best.end(), [&](const Match& m) {
+        return ((m.place - all[i].place).cwiseQuotient(step)).cwiseAbs().maxCoeff() < 2.5;
+      });
+      if (new_place) {
+        best.push_back(all[i]);
+      }
+    }
+    return best;
+  }
+
+  /// Climbs along the three coordinates and their sums with steps that shrink.
+  Match refine(const Match& from) const {
+    Match best{from.place, scoreOf(fine_, fine_samples_, c1Mo(from.place))};
+    Place step(space_.travel_step_m / 2, space_.swing_step / 2, space_.swing_step / 2);
+    for (int level = 0; level < 5;) {
+      const Match before = best;
+      for (const Place& way : ways()) {
+        tryPlace(before.place + way.cwiseProduct(step), best);
+        tryPlace(before.place - way.cwiseProduct(step), best);
+      }
+      if (!(best.score > before.score)) {
+        step /= 2.0;
+        ++level;
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// The last one turns the hook about its J: the pivot moves on while the swing falls back.
+  std::vector<Place> ways() const {
+    const double arm = space_.pivot_o.norm();
+    const double ratio = space_.travel_step_m / (arm * space_.swing_step);
+    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, ratio, 0}, {1, -ratio, 0}};
+  }
+
+  void tryPlace(const Place& place, Match& best) const {
+    const double reach = space_.travel_step_m;
+    if (place.x() < space_.travel_from_m - reach || place.x() > space_.travel_to_m + reach) {
+      return;
+    }
+    const double score = scoreOf(fine_, fine_samples_, c1Mo(place));
+    if (score > best.score) {
+      best = {place, score};
+    }
+  }
+
+  SearchSpace space_;
+  std::vector<EdgeSample> coarse_samples_;
+  std::vector<EdgeSample> fine_samples_;
+  std::vector<EdgeField> coarse_;
+  std::vector<EdgeField> fine_;
+};
+
+void check(const SearchSpace& space) {
+  if (!(space.travel_step_m > 0.0) || !(space.swing_step > 0.0) ||
+      !(space.travel_to_m >= space.travel_from_m) || !(space.swing_x >= 0.0) ||
+      !(space.swing_y >= 0.0)) {
+    throw InputError("hook search: positive steps and a range that is not empty expected");
+  }
+}
+
+}  // namespace
+
+Pose hookAt(const SearchSpace& space, double travel_m, double angle_x, double angle_y) {
+  Pose fMo = Pose::Identity();
+  fMo.linear() = (Eigen::AngleAxisd(angle_x, Eigen::Vector3d::UnitX()) *
+                  Eigen::AngleAxisd(angle_y, Eigen::Vector3d::UnitY()))
+                     .toRotationMatrix();
+  const Eigen::Vector3d pivot_f = space.pivot_start_f + travel_m * space.belt_direction_f;
+  fMo.translation() = pivot_f - fMo.linear() * space.pivot_o;
+  return fMo;
+}
+
+Outcome<Pose> findHook(const RectifiedFrame& frame, const EdgeModel& model,
+                       const SearchSpace& space) {
+  check(space);
+  const Search search(frame, model, space);
+  std::vector<Match> matches;
+  for (const Match& match : search.coarse()) {
+    matches.push_back(search.refine(match));
+  }
+  const auto best = std::max_element(matches.begin(), matches.end(),
+                                     [](auto& a, auto& b) { return a.score < b.score; });
+  if (best == matches.end() || best->score < space.min_score) {
+    return Refusal{"no hook found"};
+  }
+  const Pose found = search.c1Mo(best->place);
+  const bool rivalled = std::any_of(matches.begin(), matches.end(), [&](const Match& other) {
+    const double apart = (search.c1Mo(other.place).translation() - found.translation()).norm();
+    return apart > kElsewhereM && other.score > best->score - space.min_lead;
+  });
+  if (rivalled) {
+    return Refusal{"two places look like the hook"};
+  }
+  return found;
+}
+
+}  // namespace ringhook
