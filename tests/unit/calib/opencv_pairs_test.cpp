@@ -1,0 +1,32 @@
+// OpenCV's own 13 stereo pairs, square taken as 25 mm. Its sample program reaches 0.635 px.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "calib/solve/stereo_calibration.h"
+
+namespace ringhook {
+namespace {
+
+TEST(OpenCvPairs, CalibrateToAFifthOfAPixelHeldOut) {
+  const std::filesystem::path data = "/usr/share/doc/opencv-doc/examples/data";
+  if (!std::filesystem::exists(data / "left01.jpg")) {
+    GTEST_SKIP() << "package opencv-doc is not installed";
+  }
+  const StepHook silent = [](double, const std::string&) {};
+  const Chessboard board = parseBoard("chessboard:9x6:25mm");
+  const StereoViews views =
+      findViews(expandGlob((data / "left*.jpg").string(), "--left"),
+                expandGlob((data / "right*.jpg").string(), "--right"), board, silent);
+  const auto c = calibrateStereo(views, board, LensTerms::kFive, silent);
+  EXPECT_EQ(c.used.size(), 13U);
+  ASSERT_EQ(c.rejected.size(), 1U);  // left.jpg, right.jpg show no board
+  EXPECT_EQ(c.rejected[0].left_name, "left.jpg");
+  EXPECT_LT(c.rms_px, 0.21);
+  EXPECT_LT(c.heldout_vertical_disparity_px, 0.16);
+  EXPECT_NEAR(baseline(c.rig), 0.0835, 0.001);
+}
+
+}  // namespace
+}  // namespace ringhook
