@@ -99,12 +99,16 @@ GrayImage drawBoard(const Chessboard& board, const Eigen::Matrix3d& K, const Pos
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
       double sum = 0.0;
-      for (int s = 0; s < 16; ++s) {
+      // 8x8 samples on a sheared grid: 64 different offsets along u and along v.
+      for (int s = 0; s < 64; ++s) {
+        const double i = s % 8;
+        const double j = std::floor(s / 8.0);
         const Eigen::Vector3d p =
-            pixelToPlane * Eigen::Vector3d(u - 0.75 + 0.5 * (s % 4), v - 0.75 + 0.5 * (s / 4), 1);
+            pixelToPlane * Eigen::Vector3d(u - 0.984375 + 0.25 * i + 0.03125 * j,
+                                           v - 0.984375 + 0.25 * j + 0.03125 * i, 1.0);
         sum += printAt(board, p.x() / p.z(), p.y() / p.z());
       }
-      image.row(v)[u] = static_cast<std::uint8_t>(std::lround(sum / 16.0));
+      image.row(v)[u] = static_cast<std::uint8_t>(std::lround(sum / 64.0));
     }
   }
   return image;

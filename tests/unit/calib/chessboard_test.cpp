@@ -73,6 +73,16 @@ TEST(Chessboard, RefusesADescriptionWithoutUnitOrSize) {
   EXPECT_THAT(refusalOf("chessboard:9x6:0mm"), HasSubstr("between 0.1 mm and 10 m"));
 }
 
+TEST(Chessboard, FindsCornersToAFewHundredthsOfAPixel) {
+  const Chessboard board{9, 6, 0.025};
+  for (const double tilt : {0.0, 0.3, 0.5}) {
+    const Pose cMt = boardPose(board, 0.1, tilt);
+    const auto found = findChessboard(drawBoard(board, camera(), cMt, 640, 480), board);
+    ASSERT_TRUE(found);
+    EXPECT_LT(largestError(*found, board, cMt), 0.08) << "tilt " << tilt;
+  }
+}
+
 TEST(Chessboard, CountsFromTheSameCornerHoweverTheBoardIsTurned) {
   const Chessboard board{8, 5, 0.025};
   for (const double roll : {0.0, 1.6, 3.1, 4.7}) {
