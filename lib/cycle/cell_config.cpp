@@ -57,9 +57,10 @@ ArmConfig readArm(YamlFields fields) {
 TaskConfig readTask(YamlFields fields) {
   TaskConfig task;
   task.gain_per_s = fields.number("gain_per_s", 0.1, 50.0);
-  task.standoff_m = fields.number("standoff_mm", 5.0, 500.0) * 1e-3;
-  task.release_height_m = fields.number("release_height_mm", -50.0, 100.0) * 1e-3;
-  task.retreat_m = fields.number("retreat_mm", 10.0, 500.0) * 1e-3;
+  task.hover_m = fields.number("hover_mm", 5.0, 500.0) * 1e-3;
+  task.tip_o = fields.vector("tip_o_m", 3);
+  task.release_o = fields.vector("release_o_m", 3);
+  task.retreat_o = fields.vector("retreat_o_m", 3);
   task.path_speed_m_s = fields.number("path_speed_m_s", 0.001, 1.8);
   task.approach_speed_m_s = fields.number("approach_speed_m_s", 0.001, 1.8);
   task.align_tolerance_m = fields.number("align_tolerance_mm", 0.01, 100.0) * 1e-3;
@@ -67,6 +68,7 @@ TaskConfig readTask(YamlFields fields) {
   task.align_dwell_s = fields.number("align_dwell_s", 0.0, 60.0);
   task.align_timeout_s = fields.number("align_timeout_s", 0.1, 60.0);
   task.watch_s = fields.number("watch_s", 0.0, 60.0);
+  task.hook_timeout_s = fields.number("hook_timeout_s", 0.0, 3600.0);
   fields.refuseUnknown();
   return task;
 }

@@ -44,19 +44,21 @@ struct ArmConfig {
   double delay_s = 0.0;         ///< from the state's instant until its command acts
 };
 
-/// The task: tolerances and timing of following, lowering, releasing.
+/// The task: timing and tolerances of following, lowering, releasing.
 struct TaskConfig {
   double gain_per_s = 6.0;           ///< lambda of the pose task
-  double standoff_m = 0.05;          ///< of the ring above the tip while aligning
-  double release_height_m = 0.007;   ///< of the ring above o when it is let go
-  double retreat_m = 0.10;           ///< of the gripper along -x_o after the release
-  double path_speed_m_s = 0.10;      ///< along the path, relative to the hook, once near it
-  double approach_speed_m_s = 0.25;  ///< relative to the hook, from standby to the standoff
+  double hover_m = 0.045;            ///< of the ring above the tip before it is lowered
+  Eigen::Vector3d tip_o;             ///< top of the tip's centreline [m]
+  Eigen::Vector3d release_o;         ///< ring centre when it is let go [m]
+  Eigen::Vector3d retreat_o;         ///< motion of the gripper after that [m]
+  double path_speed_m_s = 0.08;      ///< peak, relative to the hook, while lowering
+  double approach_speed_m_s = 0.25;  ///< peak, relative to the hook, before and after
   double align_tolerance_m = 0.003;  ///< ring against goal before it is lowered
   double abort_tolerance_m = 0.010;  ///< ring against goal while lowering; beyond it: abort
   double align_dwell_s = 0.2;        ///< how long the tolerance must hold
   double align_timeout_s = 4.0;      ///< then the attempt is aborted
-  double watch_s = 2.0;              ///< how long the hook is watched after the release
+  double watch_s = 2.2;              ///< how long the arm waits after the release
+  double hook_timeout_s = 60.0;      ///< how long a hook is waited for
 };
 
 struct VisionConfig {

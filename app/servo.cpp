@@ -1,0 +1,116 @@
+#include "app/servo.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "evaluation/servo_run.h"
+#include "evaluation/servo_summary.h"
+
+namespace ringhook {
+namespace {
+
+struct ServoArguments {
+  std::string cell = RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml";
+  std::string scenario;
+  std::string tracker = "marker";
+  std::string out = "out/servo";
+  std::string json;
+  int cycles = 3;
+  std::uint64_t seed = 1;
+};
+
+ServoJob jobFrom(const ServoArguments& arguments) {
+  ServoJob job;
+  job.cell_file = arguments.cell;
+  job.scenario = arguments.scenario;
+  job.tracker = arguments.tracker == "edges" ? TrackerKind::kEdges : TrackerKind::kMarker;
+  job.cycles = arguments.cycles;
+  job.seed = arguments.seed;
+  job.out = arguments.out;
+  return job;
+}
+
+void printStatistic(const char* name, const Statistics& s, double factor, const char* unit) {
+  if (s.count() > 0) {
+    std::printf("%-34s mean %6.2f  max %6.2f %s\n", name, s.mean() * factor, s.max() * factor,
+                unit);
+  }
+}
+
+void printEnd(const ServoReport& report, const ServoArguments& arguments) {
+  const LoopStatistics& loop = report.statistics;
+  std::printf("\n%d of %d rings hang, judged by the simulated physics 2 s after release\n",
+              ringsHung(report), arguments.cycles);
+  printStatistic("prediction error, 100 ms ahead:", loop.prediction_error_m, 1e3, "mm");
+  printStatistic("age of frames when acted upon:", loop.frame_age_s, 1e3, "ms");
+  std::printf("%-34s %d of %d\n",
+              "frames with a fix while tracking:", loop.frames - loop.frames_without_fix,
+              loop.frames);
+  std::printf("%-34s %d\n", "limit violations:", loop.limit_violations);
+  std::printf("wrote %s/summary.json%s%s\n", arguments.out.c_str(),
+              report.sequence.empty() ? "" : ", sequence/",
+              report.picture.empty() ? "" : ", hanging.png");
+}
+
+void runCommand(const ServoArguments& arguments) {
+  const ServoJob job = jobFrom(arguments);
+  Progress progress("hanging rings");
+  const auto tell = [&](int attempt, TaskPhase phase, double time_s) {
+    // A hook takes the same steps every time, so phases tell how far it is.
+    const double within = static_cast<double>(phase) / static_cast<double>(TaskPhase::kDone);
+    progress.show((attempt + within) / arguments.cycles,
+                  "hook " + std::to_string(attempt + 1) + ", " + phaseName(phase) +
+                      ", t = " + std::to_string(static_cast<int>(time_s)) + " s simulated");
+  };
+  const auto done = [&](int attempt, const ServoAttempt& result) {
+    progress.clear();
+    std::printf("%s%s", attempt == 0 ? servoTableHead().c_str() : "",
+                servoTableRow(attempt, result).c_str());
+    std::fflush(stdout);
+  };
+  const ServoReport report = runServo(job, interruptRequested(), tell, done);
+  progress.clear();
+  const std::string json = servoSummaryJson(job, report);
+  writeFileAtomically(job.out / "summary.json", json);
+  if (!arguments.json.empty()) {
+    writeFileAtomically(arguments.json, json);
+  }
+  printEnd(report, arguments);
+  if (report.interrupted) {
+    throw Interrupted("stopped by the operator: the arm stands still, finished hooks are in " +
+                      (job.out / "summary.json").string());
+  }
+  if (ringsHung(report) < arguments.cycles) {
+    throw Error("not every ring hangs: the table above says why");
+  }
+}
+
+}  // namespace
+
+void addServoCommand(CLI::App& app) {
+  auto arguments = std::make_shared<ServoArguments>();
+  CLI::App* command = app.add_subcommand("servo", "Hangs rings on passing, swinging hooks");
+  command->footer(
+      "Example: ringhook servo --cycles 3 --seed 1 --tracker edges --out out/servo\n"
+      "Ctrl-C stops the arm first and keeps what was finished.");
+  command->add_option("--cell", arguments->cell, "Cell file; default: the simulated cell")
+      ->type_name("FILE");
+  command->add_option("--scenario", arguments->scenario, "Scenario of a simulated cell")
+      ->type_name("NAME");
+  command->add_option("--tracker", arguments->tracker, "How the hook is seen")
+      ->check(CLI::IsMember({"marker", "edges"}));
+  command->add_option("--cycles", arguments->cycles, "Hooks to serve")->check(CLI::Range(1, 10000));
+  command->add_option("--seed", arguments->seed, "Of everything random in a simulated cell");
+  command->add_option("--out", arguments->out, "Folder for results; default out/servo")
+      ->type_name("DIR");
+  command->add_option("--json", arguments->json, "Also write summary.json's content here")
+      ->type_name("FILE");
+  command->callback([arguments] { runCommand(*arguments); });
+}
+
+}  // namespace ringhook

@@ -1,0 +1,76 @@
+#include "cycle/arm_motion.h"
+
+#include "robot/rx60_kinematics.h"
+#include "servo/resolved_rate.h"
+
+namespace ringhook {
+namespace {
+
+constexpr double kArrived = 1e-3;        // [rad]
+constexpr double kCoarseGainPerS = 5.0;  // of the joint-space tracking law
+
+}  // namespace
+
+ArmMotion::ArmMotion(const CellConfig& cell)
+    : eMr_(cell.arm.eMr),
+      limits_(rx60::limits()),
+      speed_fraction_(cell.arm.speed_fraction),
+      gain_per_s_(cell.task.gain_per_s),
+      lead_s_(cell.arm.delay_s + 0.5 * kArmPeriod),
+      servo_(ServoGains{cell.task.gain_per_s, cell.task.gain_per_s, 30.0}) {}
+
+Pose ArmMotion::ringPose(const JointVector& position) const {
+  return rx60::forward(rx60::rx60(), position) * eMr_;
+}
+
+JointVector ArmMotion::rest(const ArmState& state) {
+  move_.reset();
+  return remember(
+      limitVelocity(JointVector::Zero(), state.position, previous_, limits_, kArmPeriod).velocity);
+}
+
+Outcome<JointVector> ArmMotion::moveTo(const ArmState& state, const JointVector& target) {
+  if (!move_ || move_->end != target) {
+    const Outcome<JointMove> planned =
+        planJointMove(state.position, target, limits_, speed_fraction_);
+    if (!planned) {
+      return Refusal{planned.reason()};
+    }
+    move_ = *planned;
+    move_start_ = state.time;
+  }
+  const JointVector wanted =
+      trackJointMove(*move_, state.time - move_start_ + lead_s_, state.position, kCoarseGainPerS);
+  return remember(limitVelocity(wanted, state.position, previous_, limits_, kArmPeriod).velocity);
+}
+
+bool ArmMotion::arrived(const ArmState& state) const {
+  return move_ && state.time - move_start_ >= move_->duration_s &&
+         (state.position - move_->end).cwiseAbs().maxCoeff() < kArrived;
+}
+
+Outcome<FollowCommand> ArmMotion::follow(const ArmState& state, const HookFilterState& hook,
+                                         const RingGoal& goal) {
+  move_.reset();
+  const Outcome<HookEstimate> then = predictHook(hook, state.time + lead_s_);
+  if (!then) {
+    return Refusal{then.reason()};
+  }
+  const JointVector position = state.position + lead_s_ * previous_;
+  const Pose fMe = rx60::forward(rx60::rx60(), position);
+  const Outcome<ServoCommand> wanted = servo_.command(fMe * eMr_, *then, goal);
+  if (!wanted) {
+    return Refusal{wanted.reason()};
+  }
+  const JointVelocityOutcome out =
+      resolve(flangeTwist(fMe, eMr_, wanted->twist_r), rx60::jacobian(rx60::rx60(), position),
+              state.position, previous_, limits_, kArmPeriod);
+  return FollowCommand{remember(out.velocity), wanted->error, out.limited()};
+}
+
+JointVector ArmMotion::remember(const JointVector& velocity) {
+  previous_ = velocity;
+  return velocity;
+}
+
+}  // namespace ringhook

@@ -1,0 +1,324 @@
+#include "cycle/task_control.h"
+
+#include <array>
+
+#include "cycle/belt_geometry.h"
+
+namespace ringhook {
+namespace {
+
+InsertionParameters pathParameters(const TaskConfig& task, double gripper_time_s) {
+  InsertionParameters p;
+  p.tip_o = task.tip_o;
+  p.hover_height = task.hover_m;
+  p.release_o = task.release_o;
+  p.retreat_o = task.retreat_o;
+  p.hold_s = gripper_time_s;
+  p.approach.linear = task.approach_speed_m_s;
+  p.align.linear = task.approach_speed_m_s;
+  p.lower.linear = task.path_speed_m_s;
+  p.retreat.linear = task.approach_speed_m_s;
+  return p;
+}
+
+}  // namespace
+
+const char* phaseName(TaskPhase phase) {
+  static constexpr std::array kNames = {"load",  "grip",    "standby", "wait",  "approach", "align",
+                                        "lower", "release", "retreat", "watch", "back off", "done"};
+  return kNames.at(static_cast<std::size_t>(phase));
+}
+
+TaskControl::TaskControl(const CellConfig& cell)
+    : cell_(cell),
+      path_parameters_(pathParameters(cell.task, cell.arm.gripper_time_s)),
+      motion_(cell) {}
+
+void TaskControl::startAttempt() {
+  result_ = {};
+  fresh_ = true;
+  hook_.reset();
+  hook_seen_ = false;
+  phase_ = ring_held_ ? TaskPhase::kStandby : TaskPhase::kLoad;
+}
+
+bool TaskControl::hookDone() const {
+  return phase_ == TaskPhase::kWatch || phase_ == TaskPhase::kDone;
+}
+
+TaskCommand TaskControl::step(const ArmState& state, const std::optional<HookFilterState>& hook) {
+  if (fresh_) {
+    fresh_ = false;
+    result_.started = state.time;
+    phase_start_ = state.time;
+  }
+  hook_seen_ = hook.has_value();
+  if (hook) {
+    hook_ = hook;
+  }
+  const TaskPhase phase = phase_;
+  TaskCommand command;
+  switch (phase) {
+    case TaskPhase::kLoad:
+      command = coarse(state, cell_.arm.load_rad, TaskPhase::kGrip);
+      break;
+    case TaskPhase::kGrip:
+      command = grip(state);
+      break;
+    case TaskPhase::kStandby:
+      command = coarse(state, cell_.arm.standby_rad, TaskPhase::kWait);
+      break;
+    case TaskPhase::kWait:
+      command = wait(state);
+      break;
+    case TaskPhase::kBackOff:
+      command = backOff(state);
+      break;
+    case TaskPhase::kWatch:
+    case TaskPhase::kDone:
+      command = resting(state);
+      break;
+    default:
+      command = follow(state);
+  }
+  command.phase = phase;
+  command.close_gripper = gripper_order_;
+  gripper_order_.reset();
+  result_.ended = state.time;
+  return command;
+}
+
+TaskCommand TaskControl::coarse(const ArmState& state, const JointVector& target, TaskPhase next) {
+  const Outcome<JointVector> velocity = motion_.moveTo(state, target);
+  TaskCommand command;
+  if (!velocity) {
+    abort(velocity.reason(), state);
+    command.velocity = motion_.rest(state);
+    return command;
+  }
+  command.velocity = *velocity;
+  if (motion_.arrived(state)) {
+    enter(next, state);
+  }
+  return command;
+}
+
+TaskCommand TaskControl::grip(const ArmState& state) {
+  if (!ring_held_) {
+    gripper_order_ = true;
+    ring_held_ = true;
+  }
+  if (state.time - phase_start_ >= cell_.arm.gripper_time_s) {
+    enter(TaskPhase::kStandby, state);
+  }
+  TaskCommand command;
+  command.velocity = motion_.rest(state);
+  return command;
+}
+
+TaskCommand TaskControl::wait(const ArmState& state) {
+  TaskCommand command;
+  command.velocity = motion_.rest(state);
+  if (hook_seen_ && hook_->ready) {
+    const Outcome<HookEstimate> now = predictHook(*hook_, state.time);
+    if (now) {
+      const double travel = hookTravel(cell_, now->fMo);
+      const double speed = now->twist_f.head<3>().dot(cell_.belt.direction_f);
+      if (travel + std::abs(speed) * insertionTime() > cell_.belt.pick_to_m) {
+        abort("hook came too late for the arm's window", state);
+      } else if (travel >= cell_.belt.pick_from_m) {
+        result_.met = state.time;
+        const Pose oMr = now->fMo.inverse() * motion_.ringPose(state.position);
+        enterPath(TaskPhase::kApproach, InsertionPhase::kApproach, oMr, state);
+      }
+      return command;
+    }
+  }
+  if (state.time - phase_start_ > cell_.task.hook_timeout_s) {
+    abort("no hook came", state);
+  }
+  return command;
+}
+
+TaskCommand TaskControl::follow(const ArmState& state) {
+  const std::string objection = whyNotFollow(state);
+  const Outcome<FollowCommand> followed =
+      objection.empty()
+          ? motion_.follow(state, *hook_, samplePath(path_, state.time - phase_start_))
+          : Outcome<FollowCommand>(Refusal{objection});
+  TaskCommand command;
+  if (!followed) {
+    // After the release the ring is on the hook: losing sight of it then only ends the following.
+    if (phase_ == TaskPhase::kRetreat) {
+      enter(TaskPhase::kWatch, state);
+    } else {
+      abort(followed.reason(), state);
+    }
+    command.velocity = motion_.rest(state);
+    return command;
+  }
+  command.velocity = followed->velocity;
+  command.error_m = followed->error.translation_m;
+  command.limited = followed->limited;
+  advance(state, followed->error.translation_m);
+  return command;
+}
+
+void TaskControl::advance(const ArmState& state, double error_m) {
+  const bool path_done = state.time - phase_start_ >= pathDuration(path_);
+  // The next path starts where the last one ended, not where the ring is: a path that starts at
+  // the ring would take the tracking error with it.
+  const Pose oMr = path_.back().oMr_end;
+  switch (phase_) {
+    case TaskPhase::kApproach:
+      if (path_done) {
+        enterPath(TaskPhase::kAlign, InsertionPhase::kAlign, oMr, state);
+      }
+      break;
+    case TaskPhase::kAlign:
+      advanceFromAlign(state, error_m);
+      break;
+    case TaskPhase::kLower:
+      result_.tracking_error_m.add(error_m);
+      if (error_m > cell_.task.abort_tolerance_m) {
+        abort("ring off its path while lowering", state);
+      } else if (path_done) {
+        gripper_order_ = false;
+        ring_held_ = false;
+        result_.released = true;
+        result_.released_at = state.time;
+        enterPath(TaskPhase::kRelease, InsertionPhase::kHold, oMr, state);
+      }
+      break;
+    case TaskPhase::kRelease:
+      if (path_done) {
+        enterPath(TaskPhase::kRetreat, InsertionPhase::kRetreat, oMr, state);
+      }
+      break;
+    default:
+      if (path_done) {
+        enter(TaskPhase::kWatch, state);
+      }
+  }
+}
+
+void TaskControl::advanceFromAlign(const ArmState& state, double error_m) {
+  const double since = state.time - phase_start_ - pathDuration(path_);
+  if (since < 0.0 || error_m > cell_.task.align_tolerance_m) {
+    aligned_since_.reset();
+  } else if (!aligned_since_) {
+    aligned_since_ = state.time;
+  }
+  if (aligned_since_ && state.time - *aligned_since_ >= cell_.task.align_dwell_s) {
+    enterPath(TaskPhase::kLower, InsertionPhase::kLower, path_.back().oMr_end, state);
+  } else if (since > cell_.task.align_timeout_s) {
+    abort("ring could not be aligned in time", state);
+  }
+}
+
+TaskCommand TaskControl::backOff(const ArmState& state) {
+  TaskCommand command;
+  const double s = state.time - phase_start_;
+  if (!path_.empty() && s < pathDuration(path_) && hook_) {
+    const Outcome<FollowCommand> followed = motion_.follow(state, *hook_, samplePath(path_, s));
+    if (followed) {
+      command.velocity = followed->velocity;
+      command.error_m = followed->error.translation_m;
+      command.limited = followed->limited;
+      return command;
+    }
+  }
+  command.velocity = motion_.rest(state);
+  if (command.velocity.isZero()) {
+    enter(TaskPhase::kDone, state);
+  }
+  return command;
+}
+
+TaskCommand TaskControl::resting(const ArmState& state) {
+  TaskCommand command;
+  command.velocity = motion_.rest(state);
+  const bool released = result_.released_at.has_value();
+  if (phase_ == TaskPhase::kWatch &&
+      (!released || state.time - *result_.released_at >= cell_.task.watch_s)) {
+    enter(TaskPhase::kDone, state);
+  }
+  return command;
+}
+
+void TaskControl::enter(TaskPhase phase, const ArmState& state) {
+  phase_ = phase;
+  phase_start_ = state.time;
+  aligned_since_.reset();
+}
+
+void TaskControl::enterPath(TaskPhase phase, InsertionPhase path, const Pose& oMr,
+                            const ArmState& state) {
+  path_ = planPhase(path, oMr, path_parameters_);
+  enter(phase, state);
+}
+
+void TaskControl::abort(const std::string& reason, const ArmState& state) {
+  result_.abort_reason = reason;
+  result_.released = false;
+  const bool near_hook =
+      phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign || phase_ == TaskPhase::kLower;
+  const std::optional<Pose> fMo = near_hook ? hookNow(state) : std::nullopt;
+  path_.clear();
+  if (fMo) {
+    PathLeg up;
+    up.oMr_start = fMo->inverse() * motion_.ringPose(state.position);
+    up.oMr_end = up.oMr_start;
+    const double rise =
+        path_parameters_.tip_o.z() + path_parameters_.hover_height - up.oMr_start.translation().z();
+    if (rise > 0.0) {
+      up.oMr_end.translation().z() += rise;
+      up.duration_s = 2.0 * rise / cell_.task.path_speed_m_s;
+      path_.push_back(up);
+    }
+    PathLeg away;
+    away.oMr_start = up.oMr_end;
+    away.oMr_end = up.oMr_end;
+    away.oMr_end.translation() += path_parameters_.standoff_offset_o;
+    away.duration_s =
+        2.0 * path_parameters_.standoff_offset_o.norm() / cell_.task.approach_speed_m_s;
+    path_.push_back(away);
+  }
+  enter(TaskPhase::kBackOff, state);
+}
+
+std::string TaskControl::whyNotFollow(const ArmState& state) const {
+  if (!hook_seen_) {
+    return "hook lost";
+  }
+  if (state.time - hook_->time > cell_.vision.stale_after_s) {
+    return "hook's estimate stale";
+  }
+  const std::optional<Pose> fMo = hookNow(state);
+  const bool inserting = phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign;
+  if (fMo && inserting && hookTravel(cell_, *fMo) > cell_.belt.pick_to_m) {
+    return "hook left the arm's window";
+  }
+  return {};
+}
+
+std::optional<Pose> TaskControl::hookNow(const ArmState& state) const {
+  if (!hook_) {
+    return std::nullopt;
+  }
+  const Outcome<HookEstimate> now = predictHook(*hook_, state.time);
+  return now ? std::optional<Pose>(now->fMo) : std::nullopt;
+}
+
+double TaskControl::insertionTime() const {
+  const Pose standoff = makePose(path_parameters_.tip_o + path_parameters_.standoff_offset_o,
+                                 Eigen::Quaterniond::Identity());
+  double time = cell_.task.align_dwell_s + cell_.arm.gripper_time_s;
+  for (const InsertionPhase phase : {InsertionPhase::kAlign, InsertionPhase::kLower}) {
+    time += pathDuration(planPhase(phase, standoff, path_parameters_));
+  }
+  constexpr double kApproachTime = 2.0;  // [s]; from standby to beside the hook, generously
+  return time + kApproachTime;
+}
+
+}  // namespace ringhook
