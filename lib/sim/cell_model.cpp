@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "sim/cell_visuals.h"
 #include "sim/hook_body.h"
 
 namespace ringhook {
@@ -18,6 +19,7 @@ constexpr const char* kHookContact = R"( contype="2" conaffinity="1")";
 constexpr const char* kToolContact = R"( contype="4" conaffinity="3")";
 constexpr const char* kFloorContact = R"( contype="0" conaffinity="8")";
 constexpr const char* kRingFloorContact = R"( contype="8" conaffinity="0")";
+constexpr const char* kNotDrawn = R"( group="3")";
 constexpr const char* kNoContact = R"( contype="0" conaffinity="0")";
 
 std::string attribute(const char* name, const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -155,8 +157,9 @@ std::string hook(const CellOptions& options, const HookDraw& draw, int index) {
                     " material=\"steel\"");
   }
   for (const HookPart& part : hookPlates()) {
-    text << box(part.center_o, part.half_size, std::string(kHookContact) + " material=\"plate\"");
+    text << box(part.center_o, part.half_size, std::string(kHookContact) + kNotDrawn);
   }
+  text << tagPlateXml();
   text << "</body>\n";
   return text.str();
 }
@@ -225,6 +228,24 @@ std::string equalities(const CellOptions& options) {
   return text.str();
 }
 
+/// Time step, medium, solver, and room for the constraints of every ring and hook at once.
+std::string solverSettings(const CellOptions& options) {
+  std::ostringstream text;
+  text << "<option" << attribute("timestep", options.physics_step)
+       << attribute("density", options.air_density) << attribute("viscosity", options.air_viscosity)
+       << attribute("gravity", Eigen::Vector3d(0.0, 0.0, -kGravity))
+       << " cone=\"elliptic\" solver=\"Newton\" tolerance=\"1e-8\" impratio=\"3\"/>\n<size njmax=\""
+       << 300 + 60 * options.ring.count + 2 * options.hook.count << "\" nconmax=\""
+       << 100 + 20 * options.ring.count << "\"/>\n<default><geom"
+       << " solref=\"0.003 1\" solimp=\"0.95 0.99 0.0005\" friction=\"0.25 0.002 1e-4\"/>"
+       << "</default>\n";
+  return text.str();
+}
+
+std::string looks() {
+  return "<visual>" + visualSettingsXml() + "</visual>\n<asset>" + visualAssetXml() + "</asset>\n";
+}
+
 }  // namespace
 
 Pose gripPose(const CellOptions& options) {
@@ -235,24 +256,16 @@ Pose gripPose(const CellOptions& options) {
 }
 
 Pose magazinePose(int index) {
-  return Pose(Eigen::Translation3d(-0.45, 0.20, 0.10 + 0.02 * index));
+  return Pose(Eigen::Translation3d(-0.50, 0.30, 0.05 + 0.10 * index));
 }
 
 std::string cellModelXml(const CellOptions& options, const CellDraw& draw) {
   std::ostringstream text;
-  text << "<mujoco model=\"ringhook cell\">\n<compiler angle=\"radian\"/>\n<option"
-       << attribute("timestep", options.physics_step) << attribute("density", options.air_density)
-       << attribute("viscosity", options.air_viscosity)
-       << attribute("gravity", Eigen::Vector3d(0.0, 0.0, -kGravity))
-       << " cone=\"elliptic\" solver=\"Newton\" tolerance=\"1e-10\" impratio=\"3\"/>\n"
-       << "<size njmax=\"3000\" nconmax=\"600\"/>\n"
-       << "<default><geom solref=\"0.003 1\" solimp=\"0.95 0.99 0.0005\" friction=\"0.25 0.002 "
-          "1e-4\"/></default>\n"
-       << "<asset><material name=\"steel\"/><material name=\"arm\"/><material name=\"gripper\"/>"
-       << "<material name=\"ring\"/><material name=\"belt\"/><material name=\"plate\"/></asset>\n"
-       << "<worldbody>\n<geom name=\"floor\" type=\"plane\" size=\"3 3 0.1\"" << kFloorContact
+  text << "<mujoco model=\"ringhook cell\">\n<compiler angle=\"radian\"/>\n"
+       << solverSettings(options) << looks() << "<worldbody>\n"
+       << "<geom name=\"floor\" type=\"plane\" size=\"3 3 0.1\" material=\"floor\"" << kFloorContact
        << "/>\n"
-       << arm(options) << belt(options, draw);
+       << sceneVisualXml(options.seed) << arm(options) << belt(options, draw);
   for (int i = 0; i < options.ring.count; ++i) {
     text << ring(options.ring, i);
   }

@@ -1,8 +1,8 @@
 #include "sim/drives.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "robot/rx60_kinematics.h"
 #include "sim/cell_state.h"
 
 namespace ringhook {
@@ -15,7 +15,7 @@ double deadBeat(double position, double velocity, double goal, double step) {
 
 void moveSetPoints(CellState& cell) {
   const double step = cell.options.physics_step;
-  const JointLimits& limits = simulatedRx60Limits();
+  static const JointLimits limits = rx60::limits();
   if (cell.steps >= cell.command_ends) {
     cell.velocity.setZero();
   }
@@ -26,23 +26,6 @@ void moveSetPoints(CellState& cell) {
 }
 
 }  // namespace
-
-const JointLimits& simulatedRx60Limits() {
-  static const JointLimits limits = [] {
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    JointLimits l;
-    l.lower << -160.0, -127.5, -134.5, -270.0, -109.5, -270.0;
-    l.upper << 160.0, 127.5, 134.5, 270.0, 120.5, 270.0;
-    l.velocity << 287.0, 287.0, 319.0, 410.0, 320.0, 700.0;
-    l.acceleration << 1500.0, 1500.0, 2000.0, 2500.0, 2000.0, 4000.0;
-    l.lower *= kDegree;
-    l.upper *= kDegree;
-    l.velocity *= kDegree;
-    l.acceleration *= kDegree;
-    return l;
-  }();
-  return limits;
-}
 
 void driveMotions(CellState& cell) {
   const mjModel* m = cell.model.get();

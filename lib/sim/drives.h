@@ -5,15 +5,9 @@
 /// joint exactly on its set point one step later (semi-implicit Euler: q' = q + h (v + h a)), and
 /// applies the generalised forces tau = M a + bias - passive that cause it.
 
-#include "core/joints.h"
-
 namespace ringhook {
 
 struct CellState;
-
-/// Speed and position limits of the RX60 (arm manual RX series 60B, D28045004E).
-/// The acceleration limits are an assumption: the maker publishes none.
-const JointLimits& simulatedRx60Limits();
 
 /// Moves the set points of arm and belt on by one physics step and applies the forces for it.
 void driveMotions(CellState& cell);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "sim/drives.h"
+#include "robot/rx60_kinematics.h"
 
 namespace ringhook {
 namespace {
@@ -32,7 +32,7 @@ void SimArm::commandVelocity(const JointVector& joint_velocity) {
   if (!joint_velocity.allFinite()) {
     refuse("a joint velocity is not a finite number");
   }
-  const JointLimits& limits = simulatedRx60Limits();
+  static const JointLimits limits = rx60::limits();
   const JointVector reached = world_.jointReading() + kPeriod * joint_velocity;
   for (int i = 0; i < 6; ++i) {
     if (std::abs(joint_velocity[i]) > limits.velocity[i]) {

@@ -1,0 +1,121 @@
+#include "arm_contract.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace ringhook {
+
+ArmState ArmContract::drive(const JointVector& joint_velocity, int periods) {
+  ArmState state = arm().waitState();
+  for (int i = 0; i < periods; ++i) {
+    arm().commandVelocity(joint_velocity);
+    state = arm().waitState();
+  }
+  return state;
+}
+
+ArmState ArmContract::idle(int periods) {
+  ArmState state = arm().waitState();
+  for (int i = 1; i < periods; ++i) {
+    state = arm().waitState();
+  }
+  return state;
+}
+
+void ArmContract::tryCommand(const JointVector& joint_velocity) {
+  try {
+    arm().commandVelocity(joint_velocity);
+  } catch (const DeviceError&) {
+    SUCCEED();
+  }
+}
+
+namespace {
+
+constexpr double kPeriod = 0.004;
+
+JointVector slow() { return JointVector{{0.1, -0.1, 0.1, 0.2, -0.1, 0.2}}; }
+
+double moved(const ArmState& from, const ArmState& to) {
+  return (to.position - from.position).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_P(ArmContract, StatesComeEveryFourMilliseconds) {
+  const ArmState first = arm().waitState();
+  const ArmState later = idle(10);
+  EXPECT_NEAR(later.time - first.time, 10 * kPeriod, 0.5 * kPeriod);
+  EXPECT_TRUE(later.motion_possible);
+}
+
+TEST_P(ArmContract, ACommandedVelocityIsFollowed) {
+  const ArmState start = arm().waitState();
+  const ArmState end = drive(slow(), 25);
+  const JointVector expected = slow() * 25 * kPeriod;
+  EXPECT_LT((end.position - start.position - expected).cwiseAbs().maxCoeff(), 1.1 * 0.2 * kPeriod);
+}
+
+TEST_P(ArmContract, TheStatesVelocityIsThePositionsChange) {
+  static_cast<void>(drive(slow(), 20));
+  arm().commandVelocity(slow());
+  const ArmState before = arm().waitState();
+  arm().commandVelocity(slow());
+  const ArmState after = arm().waitState();
+  const JointVector expected = (after.position - before.position) / (after.time - before.time);
+  EXPECT_LT((after.velocity - expected).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_P(ArmContract, ACommandEndsWithItsPeriod) {
+  static_cast<void>(drive(slow(), 10));
+  const ArmState settled = idle(3);
+  const ArmState later = idle(10);
+  EXPECT_LT(moved(settled, later), 1e-6);
+}
+
+TEST_P(ArmContract, StopStandsUntilRearmed) {
+  static_cast<void>(drive(slow(), 10));
+  arm().stop();
+  const ArmState stopped = idle(3);
+  EXPECT_FALSE(stopped.motion_possible);
+  tryCommand(slow());
+  const ArmState later = idle(5);
+  EXPECT_LT(moved(stopped, later), 1e-6);
+  arm().rearm();
+  const ArmState again = drive(slow(), 10);
+  EXPECT_GT(moved(later, again), 1e-3);
+}
+
+TEST_P(ArmContract, ANonFiniteCommandStopsTheArm) {
+  static_cast<void>(drive(slow(), 10));
+  JointVector bad = slow();
+  bad[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(arm().commandVelocity(bad), DeviceError);
+  const ArmState stopped = idle(3);
+  tryCommand(slow());
+  const ArmState later = idle(5);
+  EXPECT_TRUE(later.position.allFinite());
+  EXPECT_LT(moved(stopped, later), 1e-6);
+}
+
+TEST_P(ArmContract, ACommandBeyondTheSpeedLimitStopsTheArm) {
+  static_cast<void>(arm().waitState());
+  JointVector fast = JointVector::Zero();
+  fast[0] = 5.1;  // 292 degrees per second; joint 1 is good for 287
+  EXPECT_THROW(arm().commandVelocity(fast), DeviceError);
+  const ArmState stopped = idle(3);
+  const ArmState later = idle(5);
+  EXPECT_LT(moved(stopped, later), 1e-6);
+}
+
+TEST_P(ArmContract, TheGripperCanBeWorkedWhileStanding) {
+  static_cast<void>(arm().waitState());
+  arm().setGripper(true);
+  const ArmState start = idle(1);
+  arm().setGripper(false);
+  EXPECT_LT(moved(start, idle(10)), 1e-5);
+}
+
+}  // namespace ringhook

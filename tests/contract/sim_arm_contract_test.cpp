@@ -1,0 +1,21 @@
+#include "arm_contract.h"
+#include "sim/sim_arm.h"
+
+namespace ringhook {
+namespace {
+
+class SimArmUnderTest : public ArmUnderTest {
+ public:
+  Arm& arm() override { return arm_; }
+
+ private:
+  CellWorld world_{CellOptions{}};
+  SimArm arm_{world_};
+};
+
+std::unique_ptr<ArmUnderTest> makeSimArm() { return std::make_unique<SimArmUnderTest>(); }
+
+INSTANTIATE_TEST_SUITE_P(Simulated, ArmContract, ::testing::Values(&makeSimArm));
+
+}  // namespace
+}  // namespace ringhook
