@@ -22,9 +22,9 @@ namespace ringhook {
 
 struct ServoJob {
   std::filesystem::path cell_file;
-  std::string scenario;       ///< name beside the cell's own scenario; empty for the cell's own
+  std::string scenario;  ///< name beside the cell's own scenario; empty for the cell's own
   TrackerKind tracker = TrackerKind::kMarker;
-  int cycles = 3;             ///< hooks, one attempt each
+  int cycles = 3;  ///< hooks, one attempt each
   std::uint64_t seed = 1;
   std::filesystem::path out;  ///< folder for the sequence and the picture
 };

@@ -8,7 +8,7 @@
 namespace ringhook {
 namespace {
 
-constexpr double kHangTime = 2.0;    // [s] after the release, when physics is asked
+constexpr double kHangTime = 2.0;      // [s] after the release, when physics is asked
 constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
 
 }  // namespace

@@ -22,10 +22,10 @@ namespace ringhook {
 
 /// What physics says of one attempt.
 struct AttemptTruth {
-  int ring = -1;                    ///< index of the ring that was let go, or -1
-  bool hanging = false;             ///< it hung on a hook two seconds later
-  double peak_contact_n = 0.0;      ///< between hook and ring while gripped, greatest [N]
-  Statistics insertion_error_m;     ///< true ring against true goal line of the tip, lowering [m]
+  int ring = -1;                 ///< index of the ring that was let go, or -1
+  bool hanging = false;          ///< it hung on a hook two seconds later
+  double peak_contact_n = 0.0;   ///< between hook and ring while gripped, greatest [N]
+  Statistics insertion_error_m;  ///< true ring against true goal line of the tip, lowering [m]
 };
 
 /// What the loop itself could tell, summed over attempts.
