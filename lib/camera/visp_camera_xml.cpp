@@ -12,12 +12,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads one projection model; false if the file has none of that kind for that camera.
+/// Reads one projection model, for the image size or for any; false if the file has none of that
+/// kind for that camera.
 bool parse(vpXmlParserCamera& parser, vpCameraParameters& camera, const fs::path& file,
            const std::string& name, vpCameraParameters::vpCameraParametersProjType kind,
            ImageSize size) {
-  return parser.parse(camera, file.string(), name, kind, static_cast<unsigned>(size.width),
-                      static_cast<unsigned>(size.height)) == vpXmlParserCamera::SEQUENCE_OK;
+  const auto width = static_cast<unsigned>(size.width);
+  const auto height = static_cast<unsigned>(size.height);
+  const auto path = file.string();
+  return parser.parse(camera, path, name, kind, width, height) == vpXmlParserCamera::SEQUENCE_OK ||
+         parser.parse(camera, path, name, kind) == vpXmlParserCamera::SEQUENCE_OK;
+}
+
+/// The image size that file and images agree on.
+ImageSize agreedSize(const vpXmlParserCamera& parser, const fs::path& file, ImageSize images) {
+  const ImageSize stored{static_cast<int>(parser.getWidth()), static_cast<int>(parser.getHeight())};
+  const ImageSize size{images.width > 0 ? images.width : stored.width,
+                       images.height > 0 ? images.height : stored.height};
+  if (size.width <= 0 || size.height <= 0) {
+    throw InputError(file.string() + ": expected <image_width> and <image_height>");
+  }
+  if (stored.width > 0 && (stored.width != size.width || stored.height != size.height)) {
+    throw InputError(file.string() + " is for images of " + std::to_string(stored.width) + "x" +
+                     std::to_string(stored.height) + ", but the images are " +
+                     std::to_string(size.width) + "x" + std::to_string(size.height));
+  }
+  return size;
 }
 
 }  // namespace
@@ -43,11 +63,9 @@ StereoRig loadVispCamera(const fs::path& file, const std::string& name, ImageSiz
                      e.getStringMessage());
   }
   StereoRig rig;
-  rig.left.width = size.width > 0 ? size.width : static_cast<int>(parser.getWidth());
-  rig.left.height = size.height > 0 ? size.height : static_cast<int>(parser.getHeight());
-  if (rig.left.width <= 0 || rig.left.height <= 0) {
-    throw InputError(file.string() + ": expected <image_width> and <image_height>");
-  }
+  const ImageSize agreed = agreedSize(parser, file, size);
+  rig.left.width = agreed.width;
+  rig.left.height = agreed.height;
   rig.left.K << camera.get_px(), 0.0, camera.get_u0(), 0.0, camera.get_py(), camera.get_v0(), 0.0,
       0.0, 1.0;
   if (distorted) {
