@@ -3,7 +3,8 @@
 #include <visp3/core/vpException.h>
 #include <visp3/core/vpXmlParserCamera.h>
 
-#include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "core/error.h"
 
@@ -22,6 +23,20 @@ bool parse(vpXmlParserCamera& parser, vpCameraParameters& camera, const fs::path
   const auto path = file.string();
   return parser.parse(camera, path, name, kind, width, height) == vpXmlParserCamera::SEQUENCE_OK ||
          parser.parse(camera, path, name, kind) == vpXmlParserCamera::SEQUENCE_OK;
+}
+
+/// Name of the first camera in the file, by which ViSP's reader wants to be asked; empty if
+/// unnamed.
+std::string firstCameraName(const fs::path& file) {
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string opening = "<name>";
+  const auto begin = text.find(opening);
+  const auto end = text.find("</name>");
+  if (begin == std::string::npos || end == std::string::npos || end < begin) {
+    return {};
+  }
+  return text.substr(begin + opening.size(), end - begin - opening.size());
 }
 
 /// The image size that file and images agree on.
@@ -49,10 +64,11 @@ StereoRig loadVispCamera(const fs::path& file, const std::string& name, ImageSiz
   vpXmlParserCamera parser;
   vpCameraParameters camera;
   bool distorted = false;
+  const std::string asked = name.empty() ? firstCameraName(file) : name;
   try {
     distorted =
-        parse(parser, camera, file, name, vpCameraParameters::perspectiveProjWithDistortion, size);
-    if (!distorted && !parse(parser, camera, file, name,
+        parse(parser, camera, file, asked, vpCameraParameters::perspectiveProjWithDistortion, size);
+    if (!distorted && !parse(parser, camera, file, asked,
                              vpCameraParameters::perspectiveProjWithoutDistortion, size)) {
       throw InputError(file.string() + ": expected a <camera>" +
                        (name.empty() ? "" : " called " + name) +
