@@ -10,11 +10,18 @@
 namespace ringhook {
 namespace {
 
-/// Number of the direction sector of a line with this direction, 0 to kDirections - 1.
+/// Number of the direction sector of a line with this direction, 0 to kDirections - 1: sector n is
+/// centred on n * 22.5 degrees. Slopes are compared, for a search asks millions of times.
 int sector(double x, double y) {
-  const double turn = std::atan2(y, x) / std::numbers::pi * EdgeField::kDirections;
-  const int n = static_cast<int>(std::lround(turn)) % EdgeField::kDirections;
-  return n < 0 ? n + EdgeField::kDirections : n;
+  // Tangents of the sectors' upper bounds, -78.75 to 78.75 degrees.
+  constexpr std::array<double, 8> kBounds{-5.0273, -1.4966, -0.66818, -0.19891,
+                                          0.19891, 0.66818, 1.4966,   5.0273};
+  const double slope = x == 0.0 ? 1e9 : y / x;
+  int above = 0;
+  for (const double bound : kBounds) {
+    above += slope > bound ? 1 : 0;
+  }
+  return (above + EdgeField::kDirections / 2) % EdgeField::kDirections;
 }
 
 /// Edge pixels (0) of each direction on 255; an edge counts for its two nearest sectors.

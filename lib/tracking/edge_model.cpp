@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "core/error.h"
@@ -15,11 +16,10 @@ constexpr std::size_t kMostEntries = 100000;
 
 std::string readText(const std::filesystem::path& path) {
   std::ifstream file(path);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) {
+  if (!file) {
     throw InputError(path.string() + ": cannot read this edge model (.cao expected)");
   }
-  return text.str();
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// One .cao file, line by line: comments and attributes removed, line numbers kept.

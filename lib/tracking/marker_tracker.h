@@ -4,7 +4,9 @@
 /// Sees the hook by the tag plate on its shank. Law: four corners a tag, in every view, in the
 /// project's pixel convention (see tag_detector.h), with the corners' places in the hook frame.
 /// A large image is searched at reduced size first; what is found is detected again at full size in
-/// a window around it, so that the corners are as exact as in a small window (0.03 to 0.07 px).
+/// a window around it, so that the corners are as exact as in a small window (0.03 to 0.07 px per
+/// axis on painted tags of 77 px; 0.09 to 0.13 px while the sides lie within about half a degree of
+/// the pixel rows, where the detector's line fit follows the grid).
 
 #include <memory>
 

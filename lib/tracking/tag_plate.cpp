@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "core/error.h"
 
@@ -26,12 +26,12 @@ class PlateReader {
 
   YAML::Node parse() const {
     std::ifstream file(name_);
-    std::stringstream text;
-    if (!file || !(text << file.rdbuf())) {
+    if (!file) {
       throw InputError(name_ + ": cannot read this tag plate file (marker.yaml expected)");
     }
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
     try {
-      return YAML::Load(text.str());
+      return YAML::Load(text);
     } catch (const YAML::Exception& e) {
       fail(e.mark, "not a YAML file: " + e.msg);
     }

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "tests/unit/tracking/painted_hook.h"
+#include "tracking/edge_model.h"
+#include "tracking/tag_plate.h"
+
+namespace ringhook {
+namespace {
+
+using testing::HasSubstr;
+
+/// What loading complains about; empty if it does not.
+template <class Load>
+std::string complaint(Load&& load) {
+  try {
+    load();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string plateComplaint(const std::string& text) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "ringhook_plate.yaml";
+  writeFileAtomically(path, text);
+  return complaint([&] { loadTagPlate(path); });
+}
+
+std::string modelComplaint(const std::string& text) {
+  return complaint([&] { parseEdgeModel(text, "model.cao"); });
+}
+
+TEST(TagPlate, PutsTheHooksTagsOnItsShankWithTheUpperOneFirst) {
+  const TagPlate plate = loadTagPlate(test::hookPlatePath());
+  ASSERT_EQ(plate.tags.size(), 2U);
+  const auto upper = tagCorners(plate, plate.tags[0]);
+  // Upper left corner of the upper tag: 20 mm left of the shank, 27 + 20 mm above the centre.
+  EXPECT_TRUE(upper[0].isApprox(Eigen::Vector3d(0.005, -0.055, 0.247), 1e-9));
+  EXPECT_TRUE(upper[2].isApprox(Eigen::Vector3d(0.005, -0.015, 0.207), 1e-9));
+}
+
+TEST(TagPlate, NamesLineAndFieldOfABadFile) {
+  EXPECT_THAT(plateComplaint("family: tag99\nlayout: [{id: 0, size: 1}]"), HasSubstr(":1: family"));
+  EXPECT_THAT(plateComplaint("family: tag36h11\n"), HasSubstr("'layout'"));
+  const std::string head = "family: tag16h5\nlayout:\n  - ";
+  EXPECT_THAT(plateComplaint(head + "{id: 30, size: 0.04}"), HasSubstr(":3: 'id'"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: -0.04}"), HasSubstr(":3: 'size'"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1}"), HasSubstr("'size' is missing"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, x: far}"), HasSubstr(":3: 'x'"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, qw: 0}"), HasSubstr(":3: quaternion"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1}\n  - {id: 1, size: 0.1}"),
+              HasSubstr(":4: id 1 stands twice"));
+  EXPECT_THAT(plateComplaint("family: [\n"), HasSubstr("not a YAML file"));
+  EXPECT_THAT(plateComplaint(""), HasSubstr("a map"));
+  EXPECT_THAT(complaint([] { loadTagPlate("absent.yaml"); }), HasSubstr("absent.yaml"));
+}
+
+TEST(EdgeModel, ReadsTheHook) {
+  const EdgeModel hook = loadEdgeModel(test::hookModelPath());
+  EXPECT_EQ(hook.points.size(), 46U);
+  EXPECT_EQ(hook.edges.size(), 43U);
+  double length = 0.0;
+  for (const auto& edge : hook.edges) {
+    length += (hook.points[static_cast<std::size_t>(edge[0])] -
+               hook.points[static_cast<std::size_t>(edge[1])])
+                  .norm();
+  }
+  const auto samples = sampleEdges(hook, 0.002);
+  EXPECT_GE(static_cast<double>(samples.size()), length / 0.002);
+}
+
+constexpr const char* kSquare =
+    "V1\n# points\n4\n0 0 0\n1 0 0 # second\n1 1 0\n0 1 0\n1\n0 2 name=diagonal\n0\n1\n4 0 1 2 3 "
+    "name=front\n0\n0\n";
+
+TEST(EdgeModel, TakesLinesAndFacesOncePerEdge) {
+  EXPECT_EQ(parseEdgeModel(kSquare, "square.cao").edges.size(), 5U);
+}
+
+TEST(EdgeModel, NamesTheLineOfABadFile) {
+  EXPECT_THAT(modelComplaint("V2\n"), HasSubstr("model.cao:1: 'V1'"));
+  EXPECT_THAT(modelComplaint("V1\n2\n0 0 0\n"), HasSubstr("the file ends before a point"));
+  EXPECT_THAT(modelComplaint("V1\n1\n0 0 zero\n"), HasSubstr(":3: a number"));
+  EXPECT_THAT(modelComplaint("V1\n1\n0 0 0\n1\n0 7\n"), HasSubstr(":5: a number from 0 to 0"));
+  EXPECT_THAT(modelComplaint("V1\n1\n0 0 0\n0\n0\n1\n4 0 0\n"), HasSubstr(":7: a face"));
+  EXPECT_THAT(modelComplaint("V1\n1\n0 0 0\n0\n0\n0\n0\n0\n"), HasSubstr("no face"));
+  EXPECT_THAT(modelComplaint("V1\n-3\n"), HasSubstr(":2: the number of rows"));
+}
+
+TEST(EdgeModel, SurvivesEveryTruncationAndEveryBrokenByte) {
+  const std::string text = kSquare;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    modelComplaint(text.substr(0, i));
+    for (const char wrong : {'9', '-', '.', '"', '\n', '\0', 'e'}) {
+      std::string broken = text;
+      broken[i] = wrong;
+      modelComplaint(broken);
+    }
+  }
+  SUCCEED();
+}
+
+}  // namespace
+}  // namespace ringhook
