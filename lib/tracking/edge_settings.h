@@ -35,8 +35,7 @@ struct EdgeTrackerOptions {
   double reset_px = 1.0;        ///< prediction further than this from the last pose restarts [px]
   int min_sites = 20;           ///< fewer edge sites are no hook
   double min_good_ratio = 0.4;  ///< least part of the sites that agree with the pose
-  double max_spread_px =
-      4.0;  ///< robust deviation of the sites; half the search range is chance [px]
+  double max_spread_px = 3.0;   ///< largest robust deviation of the sites from the lines [px]
   double max_direction_deg = 25.0;  ///< largest mean angle between gradient and line normal [deg]
 };
 
