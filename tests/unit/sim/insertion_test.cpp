@@ -69,6 +69,23 @@ TEST(Release, TheFallIsFree) {
   EXPECT_LT(fallen.head<2>().norm(), 0.05e-3);
 }
 
+TEST(Release, JawsThatHardlyOpenHinderTheFall) {
+  CellOptions options = standingCell(shifted(0.0, 0.115, 0.007));
+  options.gripper.opening_angle = 0.02;
+  CellWorld world(options);
+  world.setGripper(true);
+  world.advanceTo(Time::fromSeconds(0.2));
+  const double start = truth(world).rings[0].fMr.translation().z();
+  world.setGripper(false);
+  bool touched = false;
+  for (int i = 0; i < 160; ++i) {
+    world.advanceTo(world.time() + 0.0005);
+    touched = touched || truth(world).rings[0].touching_gripper;
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_GT(truth(world).rings[0].fMr.translation().z() - start, -0.5 * 9.81 * 0.08 * 0.08 + 2e-3);
+}
+
 TEST(Release, AHeldRingCountsNeitherAsHangingNorAsReleased) {
   CellWorld world(standingCell(shifted(0.0, 0.035, 0.007)));
   world.setGripper(true);
