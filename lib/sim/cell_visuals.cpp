@@ -100,7 +100,7 @@ std::string sceneVisualXml(std::uint64_t seed) {
   };
   const double main_lamp = spread(0.62, 0.05);
   const double side_lamp = spread(0.22, 0.04);
-  const double tone = spread(0.34, 0.04);
+  const double tone = spread(0.50, 0.05);
   std::ostringstream text;
   const auto lamp = [&text](const char* direction, double brightness, double ambient) {
     text << "<light directional=\"true\" castshadow=\"false\" pos=\"0 0 3\" dir=\"" << direction
@@ -111,7 +111,7 @@ std::string sceneVisualXml(std::uint64_t seed) {
   lamp("-0.85 0.25 -0.45", main_lamp, 0.20);
   lamp("-0.50 -0.80 -0.35", side_lamp, 0.0);
   text << "<geom name=\"wall\" type=\"box\" pos=\"-0.95 0 1.2\" quat=\"0.5 0.5 0.5 0.5\""
-       << " size=\"2.5 2 0.01\" contype=\"0\" conaffinity=\"0\" material=\"wall\" rgba=\"" << tone
+       << " size=\"4 2.5 0.01\" contype=\"0\" conaffinity=\"0\" material=\"wall\" rgba=\"" << tone
        << ' ' << 0.94 * tone << ' ' << 0.86 * tone << " 1\"/>\n";
   return text.str();
 }

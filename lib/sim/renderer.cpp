@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -83,11 +84,31 @@ struct Canvas {
   }
 };
 
+/// Whether a ball about the geom may reach into the view (planes always may).
+bool mayShow(const mjvGeom& geom, const PlaneView& view) {
+  if (geom.modelrbound <= 0.0F) {
+    return true;
+  }
+  const Eigen::Vector3d centre_w(geom.pos[0], geom.pos[1], geom.pos[2]);
+  const Eigen::Vector3d p = view.wMc.inverse() * centre_w;
+  const double radius = geom.modelrbound;
+  // Signed distance from the plane through the optical centre and an edge of the window.
+  const auto inside = [&](double across, double edge_px, double sign) {
+    const double slope = edge_px / view.focal_px;
+    return sign * (across - slope * p.z()) / std::sqrt(1.0 + slope * slope) > -radius;
+  };
+  const Window& w = view.window;
+  return inside(p.x(), w.x - 1, 1.0) && inside(p.x(), w.x + w.width, -1.0) &&
+         inside(p.y(), w.y - 1, 1.0) && inside(p.y(), w.y + w.height, -1.0);
+}
+
 }  // namespace
 
 struct Renderer::Impl {
   explicit Impl(const mjModel& m);
   ~Impl();
+  /// Leaves in the scene only what the view may show.
+  void cull(const PlaneView& view);
   void drawTile(const PlaneView& tile, int to_x, int to_y, ColourImage& image);
 
   const mjModel& model;
@@ -97,6 +118,7 @@ struct Renderer::Impl {
   mjrContext context{};
   Canvas small;
   Canvas large;
+  std::vector<mjvGeom> geoms;         // all that updateScene took over
   std::vector<std::uint8_t> readout;  // bottom row first
 };
 
@@ -124,6 +146,15 @@ Renderer::Impl::~Impl() {
   mjv_freeScene(&scene);
 }
 
+void Renderer::Impl::cull(const PlaneView& view) {
+  scene.ngeom = 0;
+  for (const mjvGeom& geom : geoms) {
+    if (mayShow(geom, view)) {
+      scene.geoms[scene.ngeom++] = geom;
+    }
+  }
+}
+
 void Renderer::Impl::drawTile(const PlaneView& tile, int to_x, int to_y, ColourImage& image) {
   const Window& w = tile.window;
   const Canvas& canvas = std::max(w.width, w.height) <= kSmallSide ? small : large;
@@ -131,6 +162,7 @@ void Renderer::Impl::drawTile(const PlaneView& tile, int to_x, int to_y, ColourI
   scene.camera[0] = glCamera(tile);
   scene.camera[1] = scene.camera[0];
   const mjrRect area{0, 0, w.width, w.height};
+  cull(tile);
   mjr_render(area, &scene, &context);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas.drawn);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.resolved);
@@ -156,6 +188,7 @@ void Renderer::updateScene(mjData& data) {
   mjvCamera any;
   mjv_defaultCamera(&any);
   mjv_updateScene(&impl_->model, &data, &impl_->option, nullptr, &any, mjCAT_ALL, &impl_->scene);
+  impl_->geoms.assign(impl_->scene.geoms, impl_->scene.geoms + impl_->scene.ngeom);
 }
 
 void Renderer::draw(const PlaneView& view, ColourImage& image) {

@@ -36,8 +36,7 @@ struct ColourImage {
 
 class Renderer {
  public:
-  /// The model must outlive the renderer. `largest` is the side of the largest rectangle [px];
-  /// larger ones are drawn in tiles. Throws DeviceError if there is no OpenGL.
+  /// The model must outlive the renderer. Throws DeviceError if there is no OpenGL.
   explicit Renderer(const mjModel_& model);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -46,7 +45,7 @@ class Renderer {
   /// Takes over all positions; call once per instant, before any number of draws.
   void updateScene(mjData_& data);
 
-  /// Draws what updateScene last took over.
+  /// Draws what updateScene last took over; large rectangles in tiles.
   void draw(const PlaneView& view, ColourImage& image);
 
  private:
