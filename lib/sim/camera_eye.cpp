@@ -15,6 +15,32 @@ void toGrey(const ColourImage& colour, std::vector<float>& grey) {
   }
 }
 
+/// The lens's blur: weights 1 6 1 / 8 along both axes, a standard deviation of half a pixel.
+/// The image's outermost pixels stay as they are.
+void blur(int width, int height, std::vector<float>& grey, std::vector<float>& scratch) {
+  scratch = grey;
+  const auto at = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  };
+  for (int y = 0; y < height; ++y) {
+    const float* from = &grey[at(0, y)];
+    float* to = &scratch[at(0, y)];
+    for (int x = 1; x < width - 1; ++x) {
+      to[x] = 0.75F * from[x] + 0.125F * (from[x - 1] + from[x + 1]);
+    }
+  }
+  for (int y = 1; y < height - 1; ++y) {
+    const float* above = &scratch[at(0, y - 1)];
+    const float* from = &scratch[at(0, y)];
+    const float* below = &scratch[at(0, y + 1)];
+    float* to = &grey[at(0, y)];
+    for (int x = 0; x < width; ++x) {
+      to[x] = 0.75F * from[x] + 0.125F * (above[x] + below[x]);
+    }
+  }
+}
+
 /// Bilinear interpolation; (x, y) from the first pixel's centre, one pixel off every border.
 float sampleAt(const std::vector<float>& grey, int width, float x, float y) {
   const int column = static_cast<int>(x);
@@ -37,6 +63,7 @@ GrayImage CameraEye::expose(Renderer& renderer, const SensorNoise& sensor, const
   const Window plane = lens_.planeWindow(window);
   renderer.draw({wMc_, lens_.focalPx(), plane}, drawn_);
   toGrey(drawn_, grey_);
+  blur(drawn_.width, drawn_.height, grey_, scratch_);
   GrayImage image(window.width, window.height);
   develop(sensor, key, window, plane, image);
   return image;

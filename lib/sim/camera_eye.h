@@ -2,7 +2,7 @@
 
 /// \file
 /// One simulated camera of the rig: from the drawn world to the grey image of a window. The chain
-/// is the physical one: pinhole, lens (distortion, vignetting), sensor (noise, 8 bits).
+/// is the physical one: pinhole, lens (blur, distortion, vignetting), sensor (noise, 8 bits).
 /// Left out: motion blur; 0.5 ms of exposure smear 0.1 px at 0.1 m/s.
 
 #include <vector>
@@ -29,6 +29,7 @@ class CameraEye {
   Pose wMc_;
   ColourImage drawn_;
   std::vector<float> grey_;  // of drawn_
+  std::vector<float> scratch_;
   std::vector<LensMap::Sample> samples_;
   std::vector<float> light_;
 };

@@ -10,7 +10,7 @@ namespace ringhook {
 namespace {
 
 constexpr int kStep = 8;    // pixels between nodes
-constexpr int kMargin = 2;  // pixels around a window, for interpolation and rounding
+constexpr int kMargin = 3;  // pixels around a window, for interpolation, blur and rounding
 
 LensMap::Sample between(const LensMap::Sample& a, const LensMap::Sample& b, float s) {
   return {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.light + s * (b.light - a.light)};
