@@ -1,10 +1,7 @@
 #include "calib/solve/stereo_images.h"
 
-#include <glob.h>
-
-#include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-
+#include "camera/image_file.h"
+#include "camera/replay_camera.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -52,33 +49,11 @@ void examinePair(const std::filesystem::path& left_path, const std::filesystem::
 
 std::vector<std::filesystem::path> expandGlob(const std::string& pattern,
                                               const std::string& option) {
-  glob_t found{};
-  const int code = glob(pattern.c_str(), GLOB_TILDE, nullptr, &found);
-  std::vector<std::filesystem::path> paths;
-  for (std::size_t i = 0; code == 0 && i < found.gl_pathc; ++i) {
-    paths.emplace_back(found.gl_pathv[i]);
-  }
-  globfree(&found);
+  std::vector<std::filesystem::path> paths = filesMatching(pattern);
   if (paths.empty()) {
     throw InputError(option + ": no file matches '" + pattern + "'");
   }
-  std::sort(paths.begin(), paths.end());
   return paths;
-}
-
-GrayImage readGrayImage(const std::filesystem::path& path) {
-  cv::Mat mat;
-  try {
-    mat = cv::imread(path.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    mat.release();
-  }
-  if (mat.empty()) {
-    throw InputError(path.string() + ": not an image that can be read (PNG, PGM or JPEG expected)");
-  }
-  GrayImage image(mat.cols, mat.rows);
-  std::copy(mat.begin<std::uint8_t>(), mat.end<std::uint8_t>(), image.pixels.begin());
-  return image;
 }
 
 StereoViews findViews(const std::vector<std::filesystem::path>& left,

@@ -18,14 +18,10 @@ struct StereoViews {
   std::vector<RejectedView> rejected;
 };
 
-/// Files that match the shell pattern, sorted by name. Throws InputError, starting with `option`,
+/// Files that match the shell pattern, in natural order. Throws InputError, starting with `option`,
 /// if there is none.
 std::vector<std::filesystem::path> expandGlob(const std::string& pattern,
                                               const std::string& option);
-
-/// The image as the sensor delivered it (an orientation tag is ignored), colour made grey. Throws
-/// InputError naming the file.
-GrayImage readGrayImage(const std::filesystem::path& path);
 
 /// Looks for the board in every pair. Throws InputError for lists of different length, unreadable
 /// files, and boards found in images of different sizes; pairs without the board are `rejected`.

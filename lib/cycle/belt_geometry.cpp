@@ -19,6 +19,13 @@ double hookTravel(const CellConfig& cell, const Pose& fMo) {
   return (pivot_f - cell.belt.pivot_start_f).dot(cell.belt.direction_f);
 }
 
+double hookTravelSpeed(const CellConfig& cell, const HookEstimate& hook) {
+  const Eigen::Vector3d arm_f = hook.fMo.linear() * cell.hook.pivot_o;
+  const Eigen::Vector3d pivot_velocity_f =
+      hook.twist_f.head<3>() + hook.twist_f.tail<3>().cross(arm_f);
+  return pivot_velocity_f.dot(cell.belt.direction_f);
+}
+
 std::string whyNotOnBelt(const CellConfig& cell, const Pose& fMo, double tolerance_m) {
   const Eigen::Vector3d from_start = fMo * cell.hook.pivot_o - cell.belt.pivot_start_f;
   const Eigen::Vector3d off =

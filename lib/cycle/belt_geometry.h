@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hook_values.h"
 #include "core/pose.h"
 #include "cycle/cell_config.h"
 
@@ -19,6 +20,9 @@ Pose hookOnBelt(const CellConfig& cell, double travel_m, double swing_x_rad, dou
 
 /// Travel of the pivot of a hook at fMo [m].
 double hookTravel(const CellConfig& cell, const Pose& fMo);
+
+/// Speed of the hook's pivot along the belt [m/s]; the swing has no part in it.
+double hookTravelSpeed(const CellConfig& cell, const HookEstimate& hook);
 
 /// Empty if fMo may be a hook on this belt; else what speaks against it: pivot farther than
 /// `tolerance_m` from the belt's line, swing beyond 1.5 times the largest expected, hook turned.

@@ -123,7 +123,7 @@ TaskCommand TaskControl::wait(const ArmState& state) {
     const Outcome<HookEstimate> now = predictHook(*hook_, state.time);
     if (now) {
       const double travel = hookTravel(cell_, now->fMo);
-      const double speed = now->twist_f.head<3>().dot(cell_.belt.direction_f);
+      const double speed = hookTravelSpeed(cell_, *now);
       if (travel + std::abs(speed) * insertionTime() > cell_.belt.pick_to_m) {
         abort("hook came too late for the arm's window", state);
       } else if (travel >= cell_.belt.pick_from_m) {
@@ -148,8 +148,7 @@ TaskCommand TaskControl::follow(const ArmState& state) {
           : Outcome<FollowCommand>(Refusal{objection});
   TaskCommand command;
   if (!followed) {
-    // After the release the ring is on the hook: losing sight of it then only ends the following.
-    if (phase_ == TaskPhase::kRetreat) {
+    if (phase_ == TaskPhase::kRelease || phase_ == TaskPhase::kRetreat) {
       enter(TaskPhase::kWatch, state);
     } else {
       abort(followed.reason(), state);
@@ -288,6 +287,11 @@ void TaskControl::abort(const std::string& reason, const ArmState& state) {
 }
 
 std::string TaskControl::whyNotFollow(const ArmState& state) const {
+  // The ring that is let go bumps the hook, and a filter that gates well then loses it. The gripper
+  // opens and leaves by the last estimate, for as long as that can be predicted.
+  if (phase_ == TaskPhase::kRelease || phase_ == TaskPhase::kRetreat) {
+    return {};
+  }
   if (!hook_seen_) {
     return "hook lost";
   }

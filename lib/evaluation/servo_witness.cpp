@@ -13,6 +13,16 @@ constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
 
 }  // namespace
 
+void LoopStatistics::merge(const LoopStatistics& other) {
+  prediction_error_m.merge(other.prediction_error_m);
+  frame_age_s.merge(other.frame_age_s);
+  nis.merge(other.nis);
+  frames += other.frames;
+  frames_without_fix += other.frames_without_fix;
+  limited_commands += other.limited_commands;
+  limit_violations += other.limit_violations;
+}
+
 ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1,
                            const Eigen::Vector3d& release_o,
                            std::function<void(const AttemptTruth&)> on_judged)
@@ -102,20 +112,20 @@ void ServoWitness::onCommand(const ArmState& state, const TaskCommand& command) 
   }
   if (command.close_gripper && !*command.close_gripper) {
     released_at_ = state.time;
-    attempt_.ring = cell.held_ring;
   }
   judge(state.time, cell);
 }
 
 void ServoWitness::judge(Time now, const CellTruth& cell) {
   if (cell.held_ring >= 0 && !released_at_) {
+    attempt_.ring = cell.held_ring;
     attempt_.peak_contact_n = cell.rings[cell.held_ring].peak_force_in_grip;
   }
-  if (judged_ || !released_at_ || now - *released_at_ < kHangTime) {
+  if (judged_ || !released_at_ || attempt_.ring < 0 || now - *released_at_ < kHangTime) {
     return;
   }
   judged_ = true;
-  attempt_.hanging = attempt_.ring >= 0 && cell.rings[attempt_.ring].hanging;
+  attempt_.hanging = cell.rings[attempt_.ring].hanging;
   on_judged_(attempt_);
 }
 

@@ -22,9 +22,9 @@ namespace ringhook {
 
 /// What physics says of one attempt.
 struct AttemptTruth {
-  int ring = -1;                 ///< index of the ring that was let go, or -1
-  bool hanging = false;          ///< it hung on a hook two seconds later
-  double peak_contact_n = 0.0;   ///< between hook and ring while gripped, greatest [N]
+  int ring = -1;                ///< index of the ring in the gripper, kept when it is let go; or -1
+  bool hanging = false;         ///< it hung on a hook two seconds later
+  double peak_contact_n = 0.0;  ///< between hook and ring while gripped, greatest [N]
   Statistics insertion_error_m;  ///< true ring against true goal line of the tip, lowering [m]
 };
 
@@ -37,6 +37,8 @@ struct LoopStatistics {
   int frames_without_fix = 0;     ///< of these
   int limited_commands = 0;       ///< bent by a limit
   int limit_violations = 0;       ///< arm states outside joint range or nominal speed
+
+  void merge(const LoopStatistics& other);
 };
 
 class ServoWitness : public LoopObserver {

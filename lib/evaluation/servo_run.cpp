@@ -1,0 +1,179 @@
+#include "evaluation/servo_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/error.h"
+#include "cycle/servo_loop.h"
+#include "sim/nominal_rig.h"
+#include "sim/scenario.h"
+#include "sim/sim_arm.h"
+#include "sim/sim_stereo_camera.h"
+
+namespace ringhook {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Hooks that one simulated belt carries; a longer job goes on with a fresh belt.
+constexpr int kHooksPerBelt = 6;
+
+fs::path scenarioFile(const CellConfig& cell, const std::string& name) {
+  if (name.empty()) {
+    return cell.scenario;
+  }
+  const fs::path file = cell.scenario.parent_path() / (name + ".yaml");
+  if (!fs::exists(file)) {
+    throw InputError("--scenario " + name + ": expected a scenario with a file " + file.string());
+  }
+  return file;
+}
+
+/// Passes on what the witness sees, and tells how far the job is.
+class ProgressObserver : public LoopObserver {
+ public:
+  ProgressObserver(ServoWitness& witness, const ServoProgress& progress, int attempt)
+      : witness_(witness), progress_(progress), attempt_(attempt) {}
+  void onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) override {
+    witness_.onFrame(frame, report, age_s);
+  }
+  void onCommand(const ArmState& state, const TaskCommand& command) override {
+    witness_.onCommand(state, command);
+    progress_(attempt_, command.phase, state.time.seconds());
+  }
+
+ private:
+  ServoWitness& witness_;
+  const ServoProgress& progress_;
+  int attempt_;
+};
+
+/// From the cameras' side, a little below the hook and past it, so that ring and J are in view.
+Pose pictureView(const Eigen::Vector3d& target_f) {
+  const Eigen::Vector3d eye_f = target_f + Eigen::Vector3d(0.42, 0.22, 0.10);
+  const Eigen::Vector3d z = (target_f - eye_f).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Pose fMc = Pose::Identity();
+  fMc.linear().col(0) = x;
+  fMc.linear().col(1) = z.cross(x);
+  fMc.linear().col(2) = z;
+  fMc.translation() = eye_f;
+  return fMc;
+}
+
+/// One belt: the simulated devices, the loop's stages, the witness, and the job on it.
+class Belt {
+ public:
+  Belt(const ServoJob& job, const CellConfig& cell, Scenario scenario, int first, int hooks)
+      : job_(job),
+        cell_(cell),
+        told_rig_(loadRig(cell.rig)),
+        true_rig_(disturbedRig(told_rig_, job.seed)),
+        world_(worldOptions(std::move(scenario), job, first, hooks)),
+        arm_(world_),
+        camera_(world_, true_rig_, cameraOptions(cell)),
+        vision_(cell, told_rig_, job.tracker),
+        task_(cell),
+        witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
+                 [this](const AttemptTruth& truth) { picture(truth); }),
+        first_(first),
+        hooks_(hooks) {}
+
+  void run(const std::atomic<bool>& stop, const ServoProgress& progress,
+           const AttemptDone& attempt_done, ServoReport& report) {
+    report_ = &report;
+    for (int i = first_; i < first_ + hooks_; ++i) {
+      const std::unique_ptr<SequenceWriter> recording = i == 0 ? record() : nullptr;
+      if (recording) {
+        report.sequence = job_.out / "sequence";
+      }
+      witness_.startAttempt(recording.get());
+      ProgressObserver observer(witness_, progress, i);
+      ServoAttempt attempt;
+      attempt.loop = runAttempt(camera_, arm_, vision_, task_, observer, stop);
+      attempt.truth = witness_.attempt();
+      if (recording) {
+        recording->close();
+      }
+      report.attempts.push_back(attempt);
+      attempt_done(i, attempt);
+    }
+  }
+
+  [[nodiscard]] const LoopStatistics& statistics() const { return witness_.statistics(); }
+
+ private:
+  static CellOptions worldOptions(Scenario scenario, const ServoJob& job, int first, int hooks) {
+    CellOptions options = std::move(scenario.cell);
+    options.seed = job.seed + static_cast<std::uint64_t>(first);
+    options.hook.count = hooks;
+    options.ring.count = hooks;
+    return options;
+  }
+
+  static SimCameraOptions cameraOptions(const CellConfig& cell) {
+    SimCameraOptions options;
+    options.rate_hz = cell.vision.search_rate_hz;
+    options.transport_delay_s = cell.vision.transport_delay_s;
+    return options;
+  }
+
+  std::unique_ptr<SequenceWriter> record() const {
+    SequenceInfo info;
+    info.name = "one cycle of " + cell_.name;
+    info.rate_hz = cell_.vision.rate_hz;
+    info.target = job_.tracker == TrackerKind::kMarker ? cell_.hook.plate : cell_.hook.model;
+    info.notes = "simulated; truth.csv is c1Mo with the left camera where it truly stands";
+    info.licence = "GPL-3.0-or-later";
+    return std::make_unique<SequenceWriter>(job_.out / "sequence", info, told_rig_);
+  }
+
+  /// The first ring that hangs is worth a picture.
+  void picture(const AttemptTruth& truth_now) {
+    if (!truth_now.hanging || !report_->picture.empty()) {
+      return;
+    }
+    const fs::path file = job_.out / "hanging.png";
+    const Pose fMr = truth(world_).rings[static_cast<std::size_t>(truth_now.ring)].fMr;
+    camera_.savePicture(file, pictureView(fMr.translation()), 0.75, 1200, 900);
+    report_->picture = file;
+  }
+
+  const ServoJob& job_;
+  const CellConfig& cell_;
+  StereoRig told_rig_;
+  StereoRig true_rig_;
+  CellWorld world_;
+  SimArm arm_;
+  SimStereoCamera camera_;
+  VisionStep vision_;
+  TaskControl task_;
+  ServoWitness witness_;
+  ServoReport* report_ = nullptr;
+  int first_;
+  int hooks_;
+};
+
+}  // namespace
+
+ServoReport runServo(const ServoJob& job, const std::atomic<bool>& stop,
+                     const ServoProgress& progress, const AttemptDone& attempt_done) {
+  const CellConfig cell = loadCellConfig(job.cell_file);
+  const Scenario scenario = loadScenario(scenarioFile(cell, job.scenario));
+  ServoReport report;
+  report.cell = cell.name;
+  report.scenario = scenario.name;
+  for (int first = 0; first < job.cycles && !report.interrupted; first += kHooksPerBelt) {
+    Belt belt(job, cell, scenario, first, std::min(kHooksPerBelt, job.cycles - first));
+    try {
+      belt.run(stop, progress, attempt_done, report);
+    } catch (const Interrupted&) {
+      report.interrupted = true;
+    }
+    report.statistics.merge(belt.statistics());
+  }
+  return report;
+}
+
+}  // namespace ringhook
