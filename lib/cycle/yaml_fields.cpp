@@ -1,6 +1,7 @@
 #include "cycle/yaml_fields.h"
 
 #include <cmath>
+#include <ios>
 #include <utility>
 
 #include "core/error.h"
@@ -19,6 +20,8 @@ YamlFields YamlFields::open(const std::filesystem::path& file) {
   } catch (const YAML::Exception& e) {
     throw InputError(file.string() + ", line " + std::to_string(e.mark.line + 1) +
                      ": not valid YAML: " + e.msg);
+  } catch (const std::ios_base::failure&) {  // a folder opens but cannot be read
+    throw InputError("cannot read " + file.string() + ": expected a YAML file");
   }
   if (!node.IsMap()) {
     throw InputError(file.string() + ": expected a mapping of fields at the top");

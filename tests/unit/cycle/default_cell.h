@@ -1,0 +1,17 @@
+#pragma once
+
+/// \file
+/// The default simulated cell as text and as loaded, the ground that the tests of this folder vary.
+
+#include <filesystem>
+#include <string>
+
+#include "cycle/cell_config.h"
+
+namespace ringhook::test {
+
+std::filesystem::path defaultCellFile();
+std::string defaultCellText();
+CellConfig defaultCell();
+
+}  // namespace ringhook::test
