@@ -49,9 +49,10 @@ class ProgressObserver : public LoopObserver {
   int attempt_;
 };
 
-/// From the cameras' side, a little below the hook and past it, so that ring and J are in view.
-Pose pictureView(const Eigen::Vector3d& target_f) {
-  const Eigen::Vector3d eye_f = target_f + Eigen::Vector3d(0.42, 0.22, 0.10);
+/// From the cameras' side and past the hook, with the ring low and the tag plate high in view.
+Pose pictureView(const Eigen::Vector3d& ring_f) {
+  const Eigen::Vector3d target_f = ring_f + Eigen::Vector3d(0.0, 0.0, 0.11);
+  const Eigen::Vector3d eye_f = target_f + Eigen::Vector3d(0.66, 0.30, 0.06);
   const Eigen::Vector3d z = (target_f - eye_f).normalized();
   const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Pose fMc = Pose::Identity();
