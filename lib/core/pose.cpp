@@ -18,7 +18,8 @@ Matrix3d leftJacobian(const Vector3d& w) {
     return Matrix3d::Identity() + 0.5 * k + k * k / 6.0;
   }
   const double t2 = theta * theta;
-  return Matrix3d::Identity() + (1.0 - std::cos(theta)) / t2 * k +
+  const double half_sine = std::sin(0.5 * theta);  // 1 - cos t = 2 sin^2(t/2) keeps its digits
+  return Matrix3d::Identity() + 2.0 * half_sine * half_sine / t2 * k +
          (theta - std::sin(theta)) / (t2 * theta) * k * k;
 }
 

@@ -80,7 +80,7 @@ TEST_F(StereoImages, RefusesListsOfDifferentLength) {
 TEST_F(StereoImages, RefusesAFileThatIsNoImageNamingIt) {
   std::ofstream(folder_ / "bad.png") << "not a picture";
   EXPECT_THAT(failure({folder_ / "bad.png"}, {save("r.pgm", board(320, 240))}),
-              HasSubstr("bad.png: not an image"));
+              HasSubstr("bad.png: expected a whole PNG"));
 }
 
 TEST_F(StereoImages, RefusesImagesOfDifferentSize) {
