@@ -17,7 +17,8 @@ struct ProgramResult {
   std::string err;
 };
 
-/// A started program whose output goes to files in `folder`.
+/// A started program. Its standard output goes to a file in `folder`, its standard error is read as
+/// it comes.
 class Program {
  public:
   /// `ringhook ARGUMENTS...` with `folder` as its working folder.
@@ -26,20 +27,19 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// What it has written to standard output so far.
-  [[nodiscard]] std::string outSoFar() const;
-  [[nodiscard]] std::string errSoFar() const;
-  [[nodiscard]] bool running();
+  /// Waits until it says `text` on standard error; false if it ends without.
+  bool waitUntilItSays(const std::string& text);
   void signal(int number);
   /// Waits for its end.
   ProgramResult wait();
 
  private:
-  std::filesystem::path out_;
-  std::filesystem::path err_;
-  pid_t pid_ = -1;
-  int status_ = 0;
-  bool ended_ = false;
+  bool readMore();
+
+  std::filesystem::path out_file_;
+  std::string err_;    ///< so far
+  int err_pipe_ = -1;  ///< reading end
+  pid_t pid_ = -1;     ///< -1 once it ended
 };
 
 /// Runs to the end.
