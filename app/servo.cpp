@@ -47,6 +47,7 @@ void printEnd(const ServoReport& report, const ServoArguments& arguments) {
   std::printf("\n%d of %d rings hang, judged by the simulated physics 2 s after release\n",
               ringsHung(report), arguments.cycles);
   printStatistic("prediction error, 100 ms ahead:", loop.prediction_error_m, 1e3, "mm");
+  printStatistic("fixes against the true hook:", loop.fix_error_m, 1e3, "mm");
   printStatistic("age of frames when acted upon:", loop.frame_age_s, 1e3, "ms");
   std::printf("%-34s %d of %d\n",
               "frames with a fix while tracking:", loop.frames - loop.frames_without_fix,

@@ -85,18 +85,12 @@ class Belt {
            const AttemptDone& attempt_done, ServoReport& report) {
     report_ = &report;
     for (int i = first_; i < first_ + hooks_; ++i) {
-      const std::unique_ptr<SequenceWriter> recording = i == 0 ? record() : nullptr;
-      if (recording) {
-        report.sequence = job_.out / "sequence";
-      }
-      witness_.startAttempt(recording.get());
+      witness_.startAttempt(i == 0 ? recorder() : nullptr);
       ProgressObserver observer(witness_, progress, i);
       ServoAttempt attempt;
       attempt.loop = runAttempt(camera_, arm_, vision_, task_, observer, stop);
       attempt.truth = witness_.attempt();
-      if (recording) {
-        recording->close();
-      }
+      witness_.endAttempt();
       report.attempts.push_back(attempt);
       attempt_done(i, attempt);
     }
@@ -120,14 +114,18 @@ class Belt {
     return options;
   }
 
-  std::unique_ptr<SequenceWriter> record() const {
-    SequenceInfo info;
-    info.name = "one cycle of " + cell_.name;
-    info.rate_hz = cell_.vision.rate_hz;
-    info.target = job_.tracker == TrackerKind::kMarker ? cell_.hook.plate : cell_.hook.model;
-    info.notes = "simulated; truth.csv is c1Mo with the left camera where it truly stands";
-    info.licence = "GPL-3.0-or-later";
-    return std::make_unique<SequenceWriter>(job_.out / "sequence", info, told_rig_);
+  ServoWitness::OpenRecording recorder() {
+    return [this](const Pose& c1Mo) {
+      SequenceInfo info;
+      info.name = "one cycle of " + cell_.name;
+      info.rate_hz = cell_.vision.rate_hz;
+      info.target = job_.tracker == TrackerKind::kMarker ? cell_.hook.plate : cell_.hook.model;
+      info.c1Mo_start = c1Mo;
+      info.notes = "simulated; truth.csv is c1Mo with the left camera where it truly stands";
+      info.licence = "GPL-3.0-or-later";
+      report_->sequence = job_.out / "sequence";
+      return std::make_unique<SequenceWriter>(report_->sequence, info, told_rig_);
+    };
   }
 
   /// The first ring that hangs is worth a picture.

@@ -106,6 +106,7 @@ std::string servoSummaryJson(const ServoJob& job, const ServoReport& report) {
                {"tracking_error_mm", inUnit(over(report, &AttemptResult::tracking_error_m), kMm)},
                {"prediction_error_mm", inUnit(loop.prediction_error_m, kMm)},
                {"prediction_horizon_s", 0.1},
+               {"true_fix_error_mm", inUnit(loop.fix_error_m, kMm)},
                {"limit_violations", loop.limit_violations},
                {"limited_commands", loop.limited_commands},
                {"latency_ms", inUnit(loop.frame_age_s, 1e3)},

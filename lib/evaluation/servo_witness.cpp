@@ -16,6 +16,7 @@ constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
 void LoopStatistics::merge(const LoopStatistics& other) {
   prediction_error_m.merge(other.prediction_error_m);
   frame_age_s.merge(other.frame_age_s);
+  fix_error_m.merge(other.fix_error_m);
   nis.merge(other.nis);
   frames += other.frames;
   frames_without_fix += other.frames_without_fix;
@@ -32,11 +33,19 @@ ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1,
       on_judged_(std::move(on_judged)),
       limits_(rx60::limits()) {}
 
-void ServoWitness::startAttempt(SequenceWriter* recording) {
-  recording_ = recording;
+void ServoWitness::startAttempt(OpenRecording open_recording) {
+  open_recording_ = std::move(open_recording);
   attempt_ = {};
   released_at_.reset();
   judged_ = false;
+}
+
+void ServoWitness::endAttempt() {
+  open_recording_ = nullptr;
+  if (recording_) {
+    recording_->close();
+    recording_.reset();
+  }
 }
 
 void ServoWitness::onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) {
@@ -51,14 +60,25 @@ void ServoWitness::onFrame(const StereoFrame& frame, const VisionReport& report,
   if (report.error_100ms_m) {
     statistics_.prediction_error_m.add(*report.error_100ms_m);
   }
-  if (recording_ != nullptr && report.fix) {
-    recordFrame(frame, report);
+  if (!report.fix) {
+    return;
+  }
+  const Pose fMo_seen = fMc1_ * report.fix->c1Mo;
+  const std::optional<Pose> fMo = trueHook(frame.time, fMo_seen);
+  if (fMo) {
+    statistics_.fix_error_m.add((fMo_seen.translation() - fMo->translation()).norm());
+  }
+  if (open_recording_) {
+    recordFrame(frame, report.fix->c1Mo, fMo);
   }
 }
 
-void ServoWitness::recordFrame(const StereoFrame& frame, const VisionReport& report) {
+void ServoWitness::recordFrame(const StereoFrame& frame, const Pose& c1Mo_seen,
+                               const std::optional<Pose>& fMo) {
+  if (!recording_) {
+    recording_ = open_recording_(c1Mo_seen);
+  }
   recording_->addFrame(frame);
-  const std::optional<Pose> fMo = trueHook(frame.time, fMc1_ * report.fix->c1Mo);
   if (fMo) {
     recording_->addTruth(frame.time, fMc1_.inverse() * *fMo);
   }
@@ -96,7 +116,7 @@ void ServoWitness::onCommand(const ArmState& state, const TaskCommand& command) 
   if (past_.size() > kPastMax) {
     past_.pop_front();
   }
-  if (recording_ != nullptr) {
+  if (recording_) {
     recording_->addRobot(state.time, state.position, rx60::forward(rx60::rx60(), state.position));
   }
   statistics_.limited_commands += command.limited ? 1 : 0;

@@ -33,6 +33,7 @@ struct LoopStatistics {
   Statistics prediction_error_m;  ///< fixes against predictions made 100 ms before, at o
   Statistics frame_age_s;         ///< from mid-exposure to the arm state that was answered with it
   Statistics nis;                 ///< of the fixes taken; chi-square of 6 if consistent
+  Statistics fix_error_m;         ///< fixes against the true hook (physics), at o [m]
   int frames = 0;                 ///< taken while a hook was tracked
   int frames_without_fix = 0;     ///< of these
   int limited_commands = 0;       ///< bent by a limit
@@ -43,12 +44,17 @@ struct LoopStatistics {
 
 class ServoWitness : public LoopObserver {
  public:
-  /// `fMc1`: true left camera. `on_hanging` is called at the moment of judgement, for a picture.
+  /// `fMc1`: true left camera. `on_judged` is called at the moment of judgement, for a picture.
   ServoWitness(const CellWorld& world, const Pose& fMc1, const Eigen::Vector3d& release_o,
                std::function<void(const AttemptTruth&)> on_judged);
 
-  /// Begins an attempt; `recording` gets its frames until it ends, null for none.
-  void startAttempt(SequenceWriter* recording);
+  /// Opens a recording whose first frame shows the hook at `c1Mo`.
+  using OpenRecording = std::function<std::unique_ptr<SequenceWriter>(const Pose& c1Mo)>;
+
+  /// Begins an attempt. With `open_recording` its frames are stored from the first fix on.
+  void startAttempt(OpenRecording open_recording);
+  /// Closes the recording, if there is one. Throws Error if it cannot be written.
+  void endAttempt();
   [[nodiscard]] const AttemptTruth& attempt() const { return attempt_; }
   [[nodiscard]] const LoopStatistics& statistics() const { return statistics_; }
 
@@ -61,7 +67,7 @@ class ServoWitness : public LoopObserver {
     std::vector<Pose> fMo;  ///< of each hook
   };
 
-  void recordFrame(const StereoFrame& frame, const VisionReport& report);
+  void recordFrame(const StereoFrame& frame, const Pose& c1Mo_seen, const std::optional<Pose>& fMo);
   [[nodiscard]] std::optional<Pose> trueHook(Time time, const Pose& near_fMo) const;
   void judge(Time now, const CellTruth& cell);
   void checkLimits(const ArmState& state);
@@ -70,7 +76,8 @@ class ServoWitness : public LoopObserver {
   Pose fMc1_;
   Eigen::Vector3d release_o_;
   std::function<void(const AttemptTruth&)> on_judged_;
-  SequenceWriter* recording_ = nullptr;
+  OpenRecording open_recording_;
+  std::unique_ptr<SequenceWriter> recording_;
   AttemptTruth attempt_;
   LoopStatistics statistics_;
   std::deque<HookInstant> past_;  ///< of the last tenths of a second

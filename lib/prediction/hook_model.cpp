@@ -12,10 +12,12 @@ namespace {
 using MatrixX = Eigen::MatrixXd;
 using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-// Places in the state; kPendulum: swing blocks of three, then yaw; else angle blocks of two.
+// Places in the state; kPendulum: swing blocks of three, then yaw and the extra hanging length;
+// else angle blocks of two.
 constexpr int kSwing = 9;
 constexpr int kYaw = 15;
-constexpr int kPendulumStates = 16;
+constexpr int kLonger = 16;
+constexpr int kPendulumStates = 17;
 constexpr int kPlainStates = 15;
 
 bool isPendulum(const HookFilterOptions& options) {
@@ -31,8 +33,15 @@ PendulumParameters pendulumOf(const HookFilterOptions& options) {
           options.map_step_s};
 }
 
-// Angles (swing_x, swing_y, yaw) out of the state: rows 3 to 5 of the measurement matrix.
-Matrix6X measurementMatrix(const HookFilterOptions& options) {
+// Up along the shank, in f.
+Eigen::Vector3d shankUp(double swing_x, double swing_y) {
+  return {std::sin(swing_y), -std::sin(swing_x) * std::cos(swing_y),
+          std::cos(swing_x) * std::cos(swing_y)};
+}
+
+// Rows 0 to 2: the anchor. kPendulum measures it at pivot_o, the state has the pivot itself, which
+// is `longer` further up the shank: y = p - longer * shank. Rows 3 to 5: (swing_x, swing_y, yaw).
+Matrix6X measurementMatrix(const HookFilterOptions& options, const Eigen::Vector3d& shank_f) {
   Matrix6X C = Matrix6X::Zero(6, stateSize(options));
   C.topLeftCorner<3, 3>().setIdentity();
   if (!isPendulum(options)) {
@@ -44,6 +53,7 @@ Matrix6X measurementMatrix(const HookFilterOptions& options) {
     C(3 + axis, kSwing + 3 * axis + 2) = 1.0;  // rest angle
   }
   C(5, kYaw) = 1.0;
+  C.block<3, 1>(0, kLonger) = -shank_f;
   return C;
 }
 
@@ -87,6 +97,7 @@ void fillSwings(const HookBelief& belief, double dt, const HookFilterOptions& op
     Q(at + 2, at + 2) = options.rest_density * std::abs(dt);
   }
   Q(kYaw, kYaw) = yawDensity(belief, options) * std::abs(dt);
+  Q(kLonger, kLonger) = options.longer_density * std::abs(dt);
 }
 
 void fillTurns(double dt, const HookFilterOptions& options, MatrixX& A, MatrixX& Q) {
@@ -111,7 +122,7 @@ Eigen::VectorXd priorSigmas(const HookFilterOptions& options) {
     const Eigen::Vector3d swing(options.swing_sigma,
                                 options.pendulum_length_m * w * options.swing_sigma,
                                 options.rest_sigma);
-    sigma.tail<7>() << swing, swing, anywhere;
+    sigma.tail<8>() << swing, swing, anywhere, options.longer_sigma_m;
   } else {
     const Eigen::Vector2d turn(anywhere, w * options.swing_sigma);
     sigma.tail<6>() << turn, turn, turn;
@@ -179,8 +190,8 @@ HookBelief advanceHookBelief(const HookBelief& belief, double dt,
 Correction<Eigen::Dynamic, 6> correctHookBelief(const HookBelief& belief,
                                                 const HangingMeasurement& measurement,
                                                 const HookFilterOptions& options) {
-  const Matrix6X C = measurementMatrix(options);
   Eigen::Matrix<double, 6, 1> value = measurement.value;
+  const Matrix6X C = measurementMatrix(options, shankUp(value(3), value(4)));
   const double yaw = C.row(5).dot(belief.mean);
   value(5) = yaw + std::remainder(value(5) - yaw, 2.0 * std::numbers::pi);
   return kalmanCorrect<Eigen::Dynamic, 6>(belief, value, C, measurement.covariance);
@@ -188,10 +199,17 @@ Correction<Eigen::Dynamic, 6> correctHookBelief(const HookBelief& belief,
 
 HookEstimate composeHookEstimate(const HookBelief& belief, Time time,
                                  const HookFilterOptions& options) {
-  const Eigen::Vector3d anchor_o = anchorInHook(options);
-  const Matrix6X C = measurementMatrix(options);
+  Eigen::Vector3d anchor_o = anchorInHook(options);
+  // Without its last column the measurement matrix takes out the anchor that the state has.
+  Matrix6X C = measurementMatrix(options, Eigen::Vector3d::Zero());
   const HangingPose hanging = hangingOf(C * belief.mean);
-  const Matrix6X JC = hangingJacobian(hanging, anchor_o) * C;
+  if (isPendulum(options)) {
+    anchor_o.z() += belief.mean(kLonger);
+  }
+  Matrix6X JC = hangingJacobian(hanging, anchor_o) * C;
+  if (isPendulum(options)) {
+    JC(2, kLonger) = -1.0;  // hanging longer lowers o along its own z
+  }
   HookEstimate estimate;
   estimate.time = time;
   estimate.fMo = poseFromHanging(hanging, anchor_o);

@@ -9,12 +9,13 @@
 /// linear in the state, so the whole is one linear Kalman filter; it keeps the ties, and what
 /// counts, the hook at o, comes out of it with the errors of pivot and swing cancelling again.
 ///
-/// State, model kPendulum (16): pivot (p v a) in f; per axis x, y (phi, L phi', rest angle); yaw.
-/// The rest angles let a hook hang tilted, and yaw is what is left about the shank: constants that
-/// walk slowly. A measured swing angle is phi + rest angle.
-/// State, model kConstantAcceleration (15): (p v a) of o itself in f; swing_x, swing_y and yaw,
-/// each (angle, rate) with nearly constant rate. It knows nothing of gravity: the plain
-/// alternative.
+/// State, model kPendulum (17): pivot (p v a) in f; per axis x, y (phi, L phi', rest angle); yaw;
+/// how much longer the hook hangs than pivot_o says. The last four are constants that walk slowly:
+/// rest angles let a hook hang tilted, and yaw is what is left about the shank. A measured swing
+/// angle is phi + rest angle; the measured anchor is the pivot less that length along the shank, so
+/// a pivot that is misplaced by 9 mm does not seem to swing by half a millimetre itself. State,
+/// model kConstantAcceleration (15): (p v a) of o itself in f; swing_x, swing_y and yaw, each
+/// (angle, rate) with nearly constant rate. It knows nothing of gravity: the plain alternative.
 
 #include <Eigen/Core>
 
@@ -49,6 +50,7 @@ struct HookFilterOptions {
   double swing_density = 1e-6;       ///< phi'': pivot friction, joints of the belt [rad^2/s^3]
   double rest_density = 1e-9;        ///< walk of the rest angles [rad^2/s]
   double yaw_density = 1e-8;         ///< walk of yaw, besides what swinging adds [rad^2/s]
+  double longer_density = 1e-10;     ///< walk of the extra hanging length [m^2/s]
 
   // Process noise of kConstantAcceleration: a swing of 3 deg has 3 m/s^3 of jerk.
   double hook_jerk_density = 1.0;  ///< of o [m^2/s^5]
@@ -60,6 +62,7 @@ struct HookFilterOptions {
   double hook_acceleration_sigma = 2.0;   ///< of o, per axis (kConstantAcceleration) [m/s^2]
   double swing_sigma = 0.2;               ///< amplitude of the swing, per axis [rad]
   double rest_sigma = 0.02;               ///< tilt of the hanging hook [rad]
+  double longer_sigma_m = 0.01;           ///< pivot against pivot_o, along the shank [m]
 
   // Judgement.
   double gate_probability = 0.9999;  ///< of a good fix to pass the NIS gate, in (0, 1)

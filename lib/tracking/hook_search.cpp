@@ -9,13 +9,15 @@
 namespace ringhook {
 namespace {
 
-using Place = Eigen::Vector3d;  // travel [m], angle about x_f, angle about y_f [rad]
+// travel [m], angle about x_f, angle about y_f [rad], how much longer it hangs [m]
+using Place = Eigen::Vector4d;
 
 constexpr double kCoarseCutoffPx = 24.0;  // The grid's steps move the J by about as much.
 constexpr double kFineCutoffPx = 10.0;
 constexpr double kCoarseSampleM = 0.012;
 constexpr double kFineSampleM = 0.004;
 constexpr std::size_t kRefined = 12;  // Places of the coarse grid that are looked at closely.
+constexpr double kLengthStepM = 0.004;
 constexpr double kElsewhereM = 0.04;  // Further apart than this is another place.
 
 struct Match {
@@ -59,17 +61,17 @@ class Search {
   }
 
   Pose c1Mo(const Place& place) const {
-    return space_.fMc1.inverse() * hookAt(space_, place.x(), place.y(), place.z());
+    return space_.fMc1.inverse() * hookAt(space_, place[0], place[1], place[2], place[3]);
   }
 
   /// The best places of the grid, no two of them next to each other.
   std::vector<Match> coarse() const {
     std::vector<Match> all;
-    const Place step(space_.travel_step_m, space_.swing_step, space_.swing_step);
-    for (double s = space_.travel_from_m; s <= space_.travel_to_m; s += step.x()) {
-      for (double a = -space_.swing_x; a <= space_.swing_x; a += step.y()) {
-        for (double b = -space_.swing_y; b <= space_.swing_y; b += step.z()) {
-          const Place place(s, a, b);
+    const Place step = coarseStep();
+    for (double s = space_.travel_from_m; s <= space_.travel_to_m; s += step[0]) {
+      for (double a = -space_.swing_x; a <= space_.swing_x; a += step[1]) {
+        for (double b = -space_.swing_y; b <= space_.swing_y; b += step[2]) {
+          const Place place(s, a, b, 0.0);
           all.push_back({place, scoreOf(coarse_, coarse_samples_, c1Mo(place))});
         }
       }
@@ -87,10 +89,13 @@ class Search {
     return best;
   }
 
-  /// Climbs along the three coordinates and their sums with steps that shrink.
+  /// Climbs along the coordinates and their sums with steps that shrink, from the best length.
   Match refine(const Match& from) const {
     Match best{from.place, scoreOf(fine_, fine_samples_, c1Mo(from.place))};
-    Place step(space_.travel_step_m / 2, space_.swing_step / 2, space_.swing_step / 2);
+    for (double longer = -space_.longer; longer <= space_.longer; longer += kLengthStepM) {
+      tryPlace(Place(from.place[0], from.place[1], from.place[2], longer), best);
+    }
+    Place step = coarseStep() / 2.0;
     for (int level = 0; level < 5;) {
       const Match before = best;
       for (const Place& way : ways()) {
@@ -106,16 +111,22 @@ class Search {
   }
 
  private:
-  /// The last one turns the hook about its J: the pivot moves on while the swing falls back.
+  [[nodiscard]] Place coarseStep() const {
+    return {space_.travel_step_m, space_.swing_step, space_.swing_step, kLengthStepM};
+  }
+
+  /// The last two turn the hook about its J: the pivot moves on while the swing falls back.
   std::vector<Place> ways() const {
     const double arm = space_.pivot_o.norm();
     const double ratio = space_.travel_step_m / (arm * space_.swing_step);
-    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, ratio, 0}, {1, -ratio, 0}};
+    return {{1, 0, 0, 0}, {0, 1, 0, 0},     {0, 0, 1, 0},
+            {0, 0, 0, 1}, {1, ratio, 0, 0}, {1, -ratio, 0, 0}};
   }
 
   void tryPlace(const Place& place, Match& best) const {
     const double reach = space_.travel_step_m;
-    if (place.x() < space_.travel_from_m - reach || place.x() > space_.travel_to_m + reach) {
+    if (place[0] < space_.travel_from_m - reach || place[0] > space_.travel_to_m + reach ||
+        std::abs(place[3]) > space_.longer) {
       return;
     }
     const double score = scoreOf(fine_, fine_samples_, c1Mo(place));
@@ -141,13 +152,15 @@ void check(const SearchSpace& space) {
 
 }  // namespace
 
-Pose hookAt(const SearchSpace& space, double travel_m, double angle_x, double angle_y) {
+Pose hookAt(const SearchSpace& space, double travel_m, double angle_x, double angle_y,
+            double longer_m) {
   Pose fMo = Pose::Identity();
   fMo.linear() = (Eigen::AngleAxisd(angle_x, Eigen::Vector3d::UnitX()) *
                   Eigen::AngleAxisd(angle_y, Eigen::Vector3d::UnitY()))
                      .toRotationMatrix();
   const Eigen::Vector3d pivot_f = space.pivot_start_f + travel_m * space.belt_direction_f;
-  fMo.translation() = pivot_f - fMo.linear() * space.pivot_o;
+  const Eigen::Vector3d longer_o(0.0, 0.0, longer_m);
+  fMo.translation() = pivot_f - fMo.linear() * (space.pivot_o + longer_o);
   return fMo;
 }
 
