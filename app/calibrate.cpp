@@ -181,6 +181,7 @@ void addStereo(CLI::App& calibrate) {
 
 void addCalibrateCommand(CLI::App& app) {
   CLI::App* calibrate = app.add_subcommand("calibrate", "Set up a cell and judge the result.");
+  calibrate->footer("Example: ringhook calibrate stereo --help");
   calibrate->require_subcommand(1);
   addStereo(*calibrate);
 }

@@ -239,6 +239,7 @@ void addSequenceCommand(CLI::App& evaluate) {
 void addEvaluateCommand(CLI::App& app) {
   CLI::App* evaluate = app.add_subcommand(
       "evaluate", "Evaluate tracking and prediction offline and compare methods.");
+  evaluate->footer("Example: ringhook evaluate sequence datasets/visp-cube");
   evaluate->require_subcommand(1);
   addSequenceCommand(*evaluate);
 }

@@ -17,7 +17,8 @@ int run(int argc, char** argv) {
   CLI::App app{"Puts rings on hooks that travel and swing, guided by two cameras."};
   app.name("ringhook");
   app.set_version_flag("--version", RINGHOOK_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // checked below: this way an unknown word is named
+  app.footer("Example: ringhook servo --cycles 3 --tracker edges --out out/servo");
   ringhook::addServoCommand(app);
   ringhook::addCalibrateCommand(app);
   ringhook::addEvaluateCommand(app);
@@ -26,6 +27,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     const int code = app.exit(e);
     return code == 0 ? 0 : 2;
+  }
+  if (app.get_subcommands().empty()) {
+    std::fprintf(stderr, "ringhook: a command is required: servo, calibrate or evaluate\n");
+    return 2;
   }
   return 0;
 }

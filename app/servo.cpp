@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/interrupt.h"
@@ -60,6 +61,12 @@ void printEnd(const ServoReport& report, const ServoArguments& arguments) {
 
 void runCommand(const ServoArguments& arguments) {
   const ServoJob job = jobFrom(arguments);
+  // Opened first: a place that cannot be written is found out before the work, not after it.
+  AtomicFile summary(job.out / "summary.json");
+  std::optional<AtomicFile> copy;
+  if (!arguments.json.empty()) {
+    copy.emplace(arguments.json);
+  }
   Progress progress("hanging rings");
   const auto tell = [&](int attempt, TaskPhase phase, double time_s) {
     // A hook takes the same steps every time, so phases tell how far it is.
@@ -77,9 +84,11 @@ void runCommand(const ServoArguments& arguments) {
   const ServoReport report = runServo(job, interruptRequested(), tell, done);
   progress.clear();
   const std::string json = servoSummaryJson(job, report);
-  writeFileAtomically(job.out / "summary.json", json);
-  if (!arguments.json.empty()) {
-    writeFileAtomically(arguments.json, json);
+  summary.stream() << json;
+  summary.commit();
+  if (copy) {
+    copy->stream() << json;
+    copy->commit();
   }
   printEnd(report, arguments);
   if (report.interrupted) {
@@ -106,7 +115,8 @@ void addServoCommand(CLI::App& app) {
   command->add_option("--tracker", arguments->tracker, "How the hook is seen")
       ->check(CLI::IsMember({"marker", "edges"}));
   command->add_option("--cycles", arguments->cycles, "Hooks to serve")->check(CLI::Range(1, 10000));
-  command->add_option("--seed", arguments->seed, "Of everything random in a simulated cell");
+  command->add_option("--seed", arguments->seed, "Of everything random in a simulated cell")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", arguments->out, "Folder for results; default out/servo")
       ->type_name("DIR");
   command->add_option("--json", arguments->json, "Also write summary.json's content here")

@@ -20,7 +20,7 @@ fs::path temporaryFor(const fs::path& path) {
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), temporary_(temporaryFor(path_)) {
   std::error_code failed;
   if (path_.has_parent_path()) {
-    fs::create_directories(path_.parent_path(), failed);
+    made_folder_ = fs::create_directories(path_.parent_path(), failed);
   }
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
@@ -33,6 +33,9 @@ AtomicFile::~AtomicFile() {
     stream_.close();
     std::error_code ignored;
     fs::remove(temporary_, ignored);
+    if (made_folder_) {
+      fs::remove(path_.parent_path(), ignored);  // does nothing to a folder in use
+    }
   }
 }
 

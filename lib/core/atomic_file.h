@@ -2,8 +2,8 @@
 
 /// \file
 /// Output files that are either whole or absent: written to a temporary name beside the target
-/// and renamed by commit(). Destroyed without commit() the temporary is removed, so bad input or
-/// an exception leaves nothing half-written and an older file untouched.
+/// and renamed by commit(). Destroyed without commit() the temporary is removed, and the folder that
+/// was made for it, so bad input or an exception leaves nothing behind and an older file untouched.
 
 #include <filesystem>
 #include <fstream>
@@ -29,6 +29,7 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   std::ofstream stream_;
+  bool made_folder_ = false;
   bool committed_ = false;
 };
 

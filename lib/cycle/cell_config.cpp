@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "core/error.h"
 #include "cycle/yaml_fields.h"
 
 namespace ringhook {
@@ -26,7 +25,7 @@ BeltConfig readBelt(YamlFields fields) {
   belt.pivot_start_f = fields.vector("pivot_start_f_m", 3);
   const Eigen::Vector3d direction = fields.vector("direction_f", 3);
   if (direction.norm() < 1e-6) {
-    throw InputError("field belt.direction_f: expected a direction, not zeros");
+    fields.refuse("direction_f", "a direction, not zeros");
   }
   belt.direction_f = direction.normalized();
   belt.search_from_m = fields.number("search_from_m");
@@ -42,7 +41,7 @@ ArmConfig readArm(YamlFields fields) {
   const Eigen::Vector3d position = fields.vector("ring_e_m", 3);
   const Eigen::Vector4d q = fields.vector("ring_e_quaternion_xyzw", 4);
   if (q.norm() < 0.5) {
-    throw InputError("field arm.ring_e_quaternion_xyzw: expected a unit quaternion");
+    fields.refuse("ring_e_quaternion_xyzw", "a unit quaternion");
   }
   arm.eMr = makePose(position, Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
   arm.load_rad = fields.vector("load_deg", 6) * kRadPerDeg;
@@ -96,7 +95,7 @@ CellConfig loadCellConfig(const std::filesystem::path& file) {
   YamlFields devices = fields.section("devices");
   const std::string kind = devices.text("kind");
   if (kind != "simulated") {
-    throw InputError(file.string() + ": field devices.kind: expected simulated, got " + kind);
+    devices.refuse("kind", "simulated, got " + kind);
   }
   cell.scenario = devices.path("scenario");
   devices.refuseUnknown();

@@ -2,11 +2,28 @@
 
 #include <cmath>
 #include <ios>
+#include <sstream>
 #include <utility>
 
 #include "core/error.h"
 
 namespace ringhook {
+namespace {
+
+std::string shortNumber(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// " from 0 to 5", or one-sided.
+std::string rangeInWords(double low, double high) {
+  constexpr double kNone = std::numeric_limits<double>::max();
+  const std::string from = low > -kNone ? " from " + shortNumber(low) : "";
+  return high < kNone ? from + " to " + shortNumber(high) : from + " on";
+}
+
+}  // namespace
 
 YamlFields::YamlFields(std::filesystem::path file, std::string name, YAML::Node node)
     : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {}
@@ -32,7 +49,7 @@ YamlFields YamlFields::open(const std::filesystem::path& file) {
 YamlFields YamlFields::section(const std::string& key) {
   const YAML::Node node = require(key);
   if (!node.IsMap()) {
-    fail(key, node, "a mapping of fields");
+    refuse(key, "a mapping of fields");
   }
   return {file_, name_ + key + ".", node};
 }
@@ -42,7 +59,7 @@ bool YamlFields::has(const std::string& key) const { return static_cast<bool>(no
 std::string YamlFields::text(const std::string& key) {
   const YAML::Node node = require(key);
   if (!node.IsScalar() || node.Scalar().empty()) {
-    fail(key, node, "a text");
+    refuse(key, "a text");
   }
   return node.Scalar();
 }
@@ -56,10 +73,10 @@ double YamlFields::number(const std::string& key, double low, double high) {
   const YAML::Node node = require(key);
   double value = 0.0;
   if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
-    fail(key, node, "a number");
+    refuse(key, "a number");
   }
   if (value < low || value > high) {
-    fail(key, node, "a number from " + std::to_string(low) + " to " + std::to_string(high));
+    refuse(key, "a number" + rangeInWords(low, high));
   }
   return value;
 }
@@ -68,7 +85,7 @@ int YamlFields::integer(const std::string& key, int low, int high) {
   const YAML::Node node = require(key);
   int value = 0;
   if (!node.IsScalar() || !YAML::convert<int>::decode(node, value) || value < low || value > high) {
-    fail(key, node, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    refuse(key, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   }
   return value;
 }
@@ -77,14 +94,14 @@ Eigen::VectorXd YamlFields::vector(const std::string& key, int size) {
   const YAML::Node node = require(key);
   const std::string expected = std::to_string(size) + " numbers in [ ]";
   if (!node.IsSequence() || static_cast<int>(node.size()) != size) {
-    fail(key, node, expected);
+    refuse(key, expected);
   }
   Eigen::VectorXd values(size);
   for (int i = 0; i < size; ++i) {
     const YAML::Node element = node[i];
     if (!element.IsScalar() || !YAML::convert<double>::decode(element, values[i]) ||
         !std::isfinite(values[i])) {
-      fail(key, node, expected);
+      refuse(key, expected);
     }
   }
   return values;
@@ -110,10 +127,9 @@ YAML::Node YamlFields::require(const std::string& key) {
   return node;
 }
 
-void YamlFields::fail(const std::string& key, const YAML::Node& node,
-                      const std::string& expected) const {
-  throw InputError(file_.string() + ", line " + std::to_string(node.Mark().line + 1) + ": field " +
-                   name_ + key + ": expected " + expected);
+void YamlFields::refuse(const std::string& key, const std::string& expected) const {
+  throw InputError(file_.string() + ", line " + std::to_string(node_[key].Mark().line + 1) +
+                   ": field " + name_ + key + ": expected " + expected);
 }
 
 }  // namespace ringhook

@@ -33,14 +33,15 @@ class YamlFields {
   /// `size` finite numbers.
   Eigen::VectorXd vector(const std::string& key, int size);
 
+  /// Throws an InputError that names file, line and field of a present `key`, and `expected`.
+  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
+
   /// Refuses keys that nobody asked for. Call it last.
   void refuseUnknown() const;
 
  private:
   YamlFields(std::filesystem::path file, std::string name, YAML::Node node);
   YAML::Node require(const std::string& key);
-  [[noreturn]] void fail(const std::string& key, const YAML::Node& node,
-                         const std::string& expected) const;
 
   std::filesystem::path file_;
   std::string name_;  ///< of this mapping, with a dot behind it; empty at the top

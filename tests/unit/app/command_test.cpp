@@ -82,9 +82,9 @@ TEST_F(Command, UnknownOptionIsNamed) {
   expectWrongUse(run({"servo", "--out", "out", "--frobnicate"}), "--frobnicate");
 }
 
-TEST_F(Command, UnknownSubcommandIsWrongUse) { expectWrongUse(run({"dance"}), "subcommand"); }
+TEST_F(Command, UnknownSubcommandIsWrongUse) { expectWrongUse(run({"dance"}), "dance"); }
 
-TEST_F(Command, NoSubcommandIsWrongUse) { expectWrongUse(run({}), "subcommand"); }
+TEST_F(Command, NoSubcommandIsWrongUse) { expectWrongUse(run({}), "a command is required"); }
 
 TEST_F(Command, NoCyclesAtAllIsWrongUse) {
   expectWrongUse(run({"servo", "--out", "out", "--cycles", "0"}), "--cycles");

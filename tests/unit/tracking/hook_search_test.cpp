@@ -79,6 +79,19 @@ TEST(HookSearch, FindsThePaintedHookWithinReachOfTheEdgeTracker) {
   }
 }
 
+// Trackers lock 7 mm off, on the tags' white border, if the search leaves such a difference.
+TEST(HookSearch, FindsAHookThatHangsHigherOrLowerThanItsModelSays) {
+  const EdgeModel model = loadEdgeModel(test::hookModelPath());
+  const SearchSpace space = searchSpace();
+  for (const double longer : {-0.009, 0.009}) {
+    const Pose fMo = hookAt(space, 0.05, 0.04, -0.03, longer);
+    const RectifiedFrame frame = scene(&fMo, 12, 7);
+    const Outcome<Pose> found = findHook(frame, model, space);
+    ASSERT_TRUE(found) << found.reason();
+    EXPECT_LT(worstPixel(frame, model, *found, pairPose().inverse() * fMo), 5.0);
+  }
+}
+
 TEST(HookSearch, RefusesClutterWithoutAHook) {
   const EdgeModel model = loadEdgeModel(test::hookModelPath());
   const auto found = findHook(scene(nullptr, 40, 9), model, searchSpace());
