@@ -60,23 +60,22 @@ void ServoWitness::onFrame(const StereoFrame& frame, const VisionReport& report,
   if (report.error_100ms_m) {
     statistics_.prediction_error_m.add(*report.error_100ms_m);
   }
-  if (!report.fix) {
-    return;
+  if (report.fix) {
+    seen_fMo_ = fMc1_ * report.fix->c1Mo;
   }
-  const Pose fMo_seen = fMc1_ * report.fix->c1Mo;
-  const std::optional<Pose> fMo = trueHook(frame.time, fMo_seen);
-  if (fMo) {
-    statistics_.fix_error_m.add((fMo_seen.translation() - fMo->translation()).norm());
+  const std::optional<Pose> fMo = trueHook(frame.time, seen_fMo_);
+  if (report.fix && fMo) {
+    statistics_.fix_error_m.add((seen_fMo_.translation() - fMo->translation()).norm());
   }
-  if (open_recording_) {
-    recordFrame(frame, report.fix->c1Mo, fMo);
+  const bool begin = report.state == VisionState::kTracking && report.fix;
+  if (open_recording_ && report.state != VisionState::kSearching && (recording_ || begin)) {
+    recordFrame(frame, fMo);
   }
 }
 
-void ServoWitness::recordFrame(const StereoFrame& frame, const Pose& c1Mo_seen,
-                               const std::optional<Pose>& fMo) {
+void ServoWitness::recordFrame(const StereoFrame& frame, const std::optional<Pose>& fMo) {
   if (!recording_) {
-    recording_ = open_recording_(c1Mo_seen);
+    recording_ = open_recording_(fMc1_.inverse() * seen_fMo_);
   }
   recording_->addFrame(frame);
   if (fMo) {

@@ -51,7 +51,8 @@ class ServoWitness : public LoopObserver {
   /// Opens a recording whose first frame shows the hook at `c1Mo`.
   using OpenRecording = std::function<std::unique_ptr<SequenceWriter>(const Pose& c1Mo)>;
 
-  /// Begins an attempt. With `open_recording` its frames are stored from the first fix on.
+  /// Begins an attempt. With `open_recording` its frames are stored from the moment when
+  /// the hook's estimate is fit to act upon until the hook is lost.
   void startAttempt(OpenRecording open_recording);
   /// Closes the recording, if there is one. Throws Error if it cannot be written.
   void endAttempt();
@@ -67,7 +68,7 @@ class ServoWitness : public LoopObserver {
     std::vector<Pose> fMo;  ///< of each hook
   };
 
-  void recordFrame(const StereoFrame& frame, const Pose& c1Mo_seen, const std::optional<Pose>& fMo);
+  void recordFrame(const StereoFrame& frame, const std::optional<Pose>& fMo);
   [[nodiscard]] std::optional<Pose> trueHook(Time time, const Pose& near_fMo) const;
   void judge(Time now, const CellTruth& cell);
   void checkLimits(const ArmState& state);
@@ -80,7 +81,8 @@ class ServoWitness : public LoopObserver {
   std::unique_ptr<SequenceWriter> recording_;
   AttemptTruth attempt_;
   LoopStatistics statistics_;
-  std::deque<HookInstant> past_;  ///< of the last tenths of a second
+  std::deque<HookInstant> past_;      ///< of the last tenths of a second
+  Pose seen_fMo_ = Pose::Identity();  ///< of the last fix
   std::optional<Time> released_at_;
   bool judged_ = false;
   JointLimits limits_;

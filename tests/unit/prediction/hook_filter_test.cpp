@@ -95,6 +95,22 @@ TEST_F(HookFilterAccuracy, PendulumStaysBelowOneAndTwoMillimetres) {
   EXPECT_LT(run("pendulum", truth, options, 0.3).rms_mm, 5.0);
 }
 
+// A hook that hangs 9 mm longer than its model: taken at the model's pivot, that point swings by
+// half a millimetre, many times the noise of a good fix, and a gate would refuse the hook as a
+// whole.
+TEST_F(HookFilterAccuracy, PendulumLearnsHowMuchLongerAHookHangs) {
+  HookTruthOptions truth;
+  truth.pivot_o.z() += 0.009;
+  truth.position_sigma = 5e-5;
+  truth.rotation_sigma = 2e-4;
+  const auto options = filterOptions(HookMotionModel::kPendulum);
+  for (const double horizon : {0.04, 0.1}) {
+    const RunResult result = run("9 mm longer", truth, options, horizon);
+    EXPECT_EQ(result.refused, 0);
+    EXPECT_LT(result.rms_mm, 0.2);
+  }
+}
+
 TEST_F(HookFilterAccuracy, PendulumBeatsConstantAcceleration) {
   const HookTruthOptions truth;
   const auto pendulum = filterOptions(HookMotionModel::kPendulum);
