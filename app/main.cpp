@@ -29,7 +29,9 @@ int run(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr, "ringhook: a command is required: servo, calibrate or evaluate\n");
+    std::fprintf(stderr,
+                 "ringhook: a command is required: servo, calibrate or evaluate\n"
+                 "Run with --help for more information.\n");
     return 2;
   }
   return 0;

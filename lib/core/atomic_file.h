@@ -2,8 +2,9 @@
 
 /// \file
 /// Output files that are either whole or absent: written to a temporary name beside the target
-/// and renamed by commit(). Destroyed without commit() the temporary is removed, and the folder that
-/// was made for it, so bad input or an exception leaves nothing behind and an older file untouched.
+/// and renamed by commit(). Destroyed without commit() the temporary is removed, and the folder
+/// that was made for it, so bad input or an exception leaves nothing behind and an older file
+/// untouched.
 
 #include <filesystem>
 #include <fstream>

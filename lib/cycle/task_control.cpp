@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "cycle/back_off.h"
 #include "cycle/belt_geometry.h"
 
 namespace ringhook {
@@ -265,23 +266,7 @@ void TaskControl::abort(const std::string& reason, const ArmState& state) {
   const std::optional<Pose> fMo = near_hook ? hookNow(state) : std::nullopt;
   path_.clear();
   if (fMo) {
-    PathLeg up;
-    up.oMr_start = fMo->inverse() * motion_.ringPose(state.position);
-    up.oMr_end = up.oMr_start;
-    const double rise =
-        path_parameters_.tip_o.z() + path_parameters_.hover_height - up.oMr_start.translation().z();
-    if (rise > 0.0) {
-      up.oMr_end.translation().z() += rise;
-      up.duration_s = 2.0 * rise / cell_.task.path_speed_m_s;
-      path_.push_back(up);
-    }
-    PathLeg away;
-    away.oMr_start = up.oMr_end;
-    away.oMr_end = up.oMr_end;
-    away.oMr_end.translation() += path_parameters_.standoff_offset_o;
-    away.duration_s =
-        2.0 * path_parameters_.standoff_offset_o.norm() / cell_.task.approach_speed_m_s;
-    path_.push_back(away);
+    path_ = planBackOff(fMo->inverse() * motion_.ringPose(state.position), path_parameters_);
   }
   enter(TaskPhase::kBackOff, state);
 }
