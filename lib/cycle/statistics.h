@@ -23,8 +23,8 @@ class Statistics {
     if (other.count_ == 0) {
       return;
     }
-    const double n = static_cast<double>(count_);
-    const double m = static_cast<double>(other.count_);
+    const auto n = static_cast<double>(count_);
+    const auto m = static_cast<double>(other.count_);
     const double delta = other.mean_ - mean_;
     max_ = count_ == 0 ? other.max_ : std::max(max_, other.max_);
     count_ += other.count_;

@@ -25,8 +25,8 @@ std::string rangeInWords(double low, double high) {
 
 }  // namespace
 
-YamlFields::YamlFields(std::filesystem::path file, std::string name, YAML::Node node)
-    : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {}
+YamlFields::YamlFields(std::filesystem::path file, std::string name, const YAML::Node& node)
+    : file_(std::move(file)), name_(std::move(name)), node_(node) {}
 
 YamlFields YamlFields::open(const std::filesystem::path& file) {
   YAML::Node node;

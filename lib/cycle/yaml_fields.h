@@ -40,7 +40,7 @@ class YamlFields {
   void refuseUnknown() const;
 
  private:
-  YamlFields(std::filesystem::path file, std::string name, YAML::Node node);
+  YamlFields(std::filesystem::path file, std::string name, const YAML::Node& node);
   YAML::Node require(const std::string& key);
 
   std::filesystem::path file_;
