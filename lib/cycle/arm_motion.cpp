@@ -1,6 +1,6 @@
 #include "cycle/arm_motion.h"
 
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 #include "servo/resolved_rate.h"
 
 namespace ringhook {

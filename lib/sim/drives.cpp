@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 #include "sim/cell_state.h"
 
 namespace ringhook {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 
 namespace ringhook {
 namespace {

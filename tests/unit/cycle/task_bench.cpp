@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 
 namespace ringhook::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "joint_samples.h"
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 
 namespace ringhook::rx60 {
 namespace {

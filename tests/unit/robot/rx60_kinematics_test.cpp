@@ -1,4 +1,4 @@
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 #include "scripted_arm.h"
 #include "sim/truth.h"
 

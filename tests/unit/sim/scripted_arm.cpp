@@ -1,7 +1,7 @@
 #include "scripted_arm.h"
 
 #include "core/error.h"
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 #include "sim/cell_model.h"
 #include "sim/truth.h"
 

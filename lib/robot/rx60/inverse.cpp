@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "robot/rx60_kinematics.h"
+#include "robot/rx60/kinematics.h"
 
 namespace ringhook::rx60 {
 namespace {
