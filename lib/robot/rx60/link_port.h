@@ -18,6 +18,7 @@ namespace ringhook::rx60 {
 enum class Channel { kMotion, kState, kIo };
 inline constexpr std::array<Channel, 3> kChannels = {Channel::kMotion, Channel::kState,
                                                      Channel::kIo};
+const char* nameOf(Channel channel);
 
 class LinkPort {
  public:

@@ -234,8 +234,8 @@ Outcome<std::size_t> frameSize(std::span<const std::byte> bytes) {
   }
   const char* name = nameOf(static_cast<MessageType>(prefix.type));
   if (prefix.length != static_cast<std::int32_t>(kHeaderBytes + *body)) {
-    return Refusal{std::string(name) + " of length " + std::to_string(prefix.length) + " instead of " +
-                   std::to_string(kHeaderBytes + *body)};
+    return Refusal{std::string(name) + " of length " + std::to_string(prefix.length) +
+                   " instead of " + std::to_string(kHeaderBytes + *body)};
   }
   if (prefix.comm < 1 || prefix.comm > 3) {
     return Refusal{std::string(name) + " with unknown comm type " + std::to_string(prefix.comm)};
