@@ -3,8 +3,8 @@
 /// \file
 /// The one interface of every arm: simulated in process, or an RX60 over its protocol. The arm's
 /// state messages (250 Hz) clock the control loop: wait for a state, answer it with exactly one
-/// velocity command. A command acts for one state period only; without the next one the arm
-/// stands still.
+/// velocity command. A command ends by itself: after one state period in the simulated arm, after
+/// a short hold and ramp in the RX60's client; without the next one the arm stands still.
 
 #include "core/joints.h"
 
@@ -21,7 +21,7 @@ class Arm {
   /// Throws DeviceError when the link or the arm is lost.
   [[nodiscard]] virtual ArmState waitState() = 0;
 
-  /// Joint velocities [rad/s] for the coming period. Values that are not finite or exceed the
+  /// Joint velocities [rad/s] from now on, until the next command or the end of the hold. Values that are not finite or exceed the
   /// arm's speed limits are refused: the arm stops and DeviceError is thrown.
   virtual void commandVelocity(const JointVector& joint_velocity) = 0;
 

@@ -20,6 +20,13 @@ class ArmUnderTest {
   ArmUnderTest& operator=(const ArmUnderTest&) = delete;
   virtual ~ArmUnderTest() = default;
   virtual Arm& arm() = 0;
+
+  /// State periods from the first command after standing until commands act as they come.
+  [[nodiscard]] virtual int periodsToWakeUp() const = 0;
+  /// State periods until a command shows in the state, and within which a velocity is reached.
+  [[nodiscard]] virtual int periodsToFollow() const = 0;
+  /// State periods after the last command until the arm stands.
+  [[nodiscard]] virtual int periodsToRest() const = 0;
 };
 
 using ArmMaker = std::unique_ptr<ArmUnderTest> (*)();
@@ -28,10 +35,15 @@ class ArmContract : public ::testing::TestWithParam<ArmMaker> {
  protected:
   ArmContract() : held_(GetParam()()) {}
   Arm& arm() { return held_->arm(); }
+  /// Answers states with zeros until the arm is ready to follow.
+  void wakeUp();
   /// Answers `periods` states with this velocity [rad/s]; the last state.
   ArmState drive(const JointVector& joint_velocity, int periods);
   /// Lets `periods` states pass without an answer; the last one.
   ArmState idle(int periods);
+  /// The state in which the arm has come to rest after the last command.
+  ArmState rest();
+  ArmUnderTest& held() { return *held_; }
   /// Sends a velocity that may or may not be refused.
   void tryCommand(const JointVector& joint_velocity);
 

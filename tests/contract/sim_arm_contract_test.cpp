@@ -7,6 +7,9 @@ namespace {
 class SimArmUnderTest : public ArmUnderTest {
  public:
   Arm& arm() override { return arm_; }
+  [[nodiscard]] int periodsToWakeUp() const override { return 1; }
+  [[nodiscard]] int periodsToFollow() const override { return 1; }
+  [[nodiscard]] int periodsToRest() const override { return 3; }
 
  private:
   CellWorld world_{CellOptions{}};

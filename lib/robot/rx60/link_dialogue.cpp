@@ -99,6 +99,7 @@ std::string obstacleIn(const RobotStatus& status) {
 void Link::takeStatus(const RobotStatus& status, Time now) {
   const bool first = !have_status_;
   report_.status = status;
+  ++report_.statuses;
   have_status_ = true;
   last_status_ = now;
   const std::string obstacle = obstacleIn(status);

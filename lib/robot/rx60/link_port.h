@@ -14,9 +14,10 @@
 
 namespace ringhook::rx60 {
 
-/// The connections of the link, each a TCP port of the controller.
-enum class Channel { kMotion, kState, kIo };
-inline constexpr std::array<Channel, 3> kChannels = {Channel::kMotion, Channel::kState,
+/// The connections of the link, each a TCP port of the controller. State is read first: it tells
+/// why a motion is refused.
+enum class Channel { kState, kMotion, kIo };
+inline constexpr std::array<Channel, 3> kChannels = {Channel::kState, Channel::kMotion,
                                                      Channel::kIo};
 const char* nameOf(Channel channel);
 

@@ -14,7 +14,7 @@
 namespace ringhook::rx60 {
 
 struct LinkSettings {
-  LimiterSettings limiter;      ///< between every velocity and the wire
+  LimiterSettings limiter;     ///< between every velocity and the wire
   double hold_s = 0.05;        ///< a target acts for so long: 2.5 vision periods of 20 ms
   double ramp_s = 0.02;        ///< then goes down to zero within this time
   double stop_after_s = 0.25;  ///< without a target the arm leaves velocity mode
@@ -51,6 +51,7 @@ struct LinkReport {
   Time now;                    ///< when this was written
   ArmState arm;                ///< of the newest feedback
   RobotStatus status;          ///< the newest
+  std::int64_t statuses = 0;   ///< received since the start
   ArrivalStatistics arrivals;  ///< of the feedbacks
   double command_age_s = 0.0;  ///< from commandVelocity to the wire, last command
   JointVector sent_velocity = JointVector::Zero();  ///< last on the wire [rad/s]

@@ -203,6 +203,9 @@ void Rx60Arm::stop() noexcept {
 
 void Rx60Arm::rearm() {
   Lock lock(mutex_);
+  // The status at hand may be older than what the operator has just mended.
+  const std::int64_t before = link_.report().statuses;
+  waitUntil(lock, [&] { return !link_.open() || link_.report().statuses != before; });
   const Outcome<bool> done = link_.rearm(port_->now());
   if (!done) {
     throw DeviceError("The RX60 cannot be re-armed: " + done.reason() + ".");
