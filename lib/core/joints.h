@@ -9,7 +9,7 @@
 
 namespace ringhook {
 
-using JointVector = Eigen::Matrix<double, 6, 1>;  ///< [rad], [rad/s] or [rad/s^2] as named
+using JointVector = Eigen::Matrix<double, 6, 1>;  ///< [rad], or its derivatives as named
 using Jacobian = Eigen::Matrix<double, 6, 6>;     ///< twist = J * joint velocity
 
 /// Limits that a command must respect.
@@ -18,6 +18,7 @@ struct JointLimits {
   JointVector upper;         ///< [rad]
   JointVector velocity;      ///< magnitude [rad/s]
   JointVector acceleration;  ///< magnitude [rad/s^2]; an assumption, the maker publishes none
+  JointVector jerk;          ///< magnitude [rad/s^3]; likewise
 };
 
 /// One state message of the arm.

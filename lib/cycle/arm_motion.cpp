@@ -9,13 +9,20 @@ namespace {
 constexpr double kArrived = 1e-3;        // [rad]
 constexpr double kCoarseGainPerS = 5.0;  // of the joint-space tracking law
 
+/// The ring's centre is the tool point.
+LimiterSettings limiterSettings(const ArmConfig& arm) {
+  LimiterSettings settings;
+  settings.tool_e = arm.eMr.translation();
+  settings.period_s = kArmPeriod;
+  return settings;
+}
+
 }  // namespace
 
 ArmMotion::ArmMotion(const CellConfig& cell)
     : eMr_(cell.arm.eMr),
-      limits_(rx60::limits()),
+      limiter_(limiterSettings(cell.arm)),
       speed_fraction_(cell.arm.speed_fraction),
-      gain_per_s_(cell.task.gain_per_s),
       lead_s_(cell.arm.delay_s + 0.5 * kArmPeriod),
       servo_(ServoGains{cell.task.gain_per_s, cell.task.gain_per_s, 30.0}) {}
 
@@ -25,14 +32,13 @@ Pose ArmMotion::ringPose(const JointVector& position) const {
 
 JointVector ArmMotion::rest(const ArmState& state) {
   move_.reset();
-  return remember(
-      limitVelocity(JointVector::Zero(), state.position, previous_, limits_, kArmPeriod).velocity);
+  return limiter_.limit(JointVector::Zero(), state.position).velocity;
 }
 
 Outcome<JointVector> ArmMotion::moveTo(const ArmState& state, const JointVector& target) {
   if (!move_ || move_->end != target) {
     const Outcome<JointMove> planned =
-        planJointMove(state.position, target, limits_, speed_fraction_);
+        planJointMove(state.position, target, rx60::limits(), speed_fraction_);
     if (!planned) {
       return Refusal{planned.reason()};
     }
@@ -41,7 +47,7 @@ Outcome<JointVector> ArmMotion::moveTo(const ArmState& state, const JointVector&
   }
   const JointVector wanted =
       trackJointMove(*move_, state.time - move_start_ + lead_s_, state.position, kCoarseGainPerS);
-  return remember(limitVelocity(wanted, state.position, previous_, limits_, kArmPeriod).velocity);
+  return limiter_.limit(wanted, state.position).velocity;
 }
 
 bool ArmMotion::arrived(const ArmState& state) const {
@@ -56,21 +62,16 @@ Outcome<FollowCommand> ArmMotion::follow(const ArmState& state, const HookFilter
   if (!then) {
     return Refusal{then.reason()};
   }
-  const JointVector position = state.position + lead_s_ * previous_;
+  const JointVector position = state.position + lead_s_ * limiter_.velocity();
   const Pose fMe = rx60::forward(rx60::rx60(), position);
   const Outcome<ServoCommand> wanted = servo_.command(fMe * eMr_, *then, goal);
   if (!wanted) {
     return Refusal{wanted.reason()};
   }
-  const JointVelocityOutcome out =
-      resolve(flangeTwist(fMe, eMr_, wanted->twist_r), rx60::jacobian(rx60::rx60(), position),
-              state.position, previous_, limits_, kArmPeriod);
-  return FollowCommand{remember(out.velocity), wanted->error, out.limited()};
-}
-
-JointVector ArmMotion::remember(const JointVector& velocity) {
-  previous_ = velocity;
-  return velocity;
+  const ResolvedRate resolved =
+      resolve(flangeTwist(fMe, eMr_, wanted->twist_r), rx60::jacobian(rx60::rx60(), position));
+  const LimitedVelocity out = limiter_.limit(resolved.velocity, state.position);
+  return FollowCommand{out.velocity, wanted->error, out.limited()};
 }
 
 }  // namespace ringhook

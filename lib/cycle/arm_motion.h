@@ -2,10 +2,9 @@
 
 /// \file
 /// Joint velocities for the three things the arm does: come to rest, move in joint space, follow a
-/// goal on the moving hook. Every velocity passes the limits of servo/resolved_rate.h; nothing else
-/// of the cycle makes one.
-/// Timing: a command answers the state of instant t and acts from t + delay for one period, so hook
-/// and ring are both predicted to the middle of that period.
+/// goal on the moving hook. Every velocity passes the one limiter of robot/limiter.h; nothing else
+/// of the cycle makes one. Timing: a command answers the state of instant t and acts from t + delay
+/// for one period, so hook and ring are both predicted to the middle of that period.
 
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "core/outcome.h"
 #include "cycle/cell_config.h"
 #include "prediction/hook_filter.h"
+#include "robot/limiter.h"
 #include "servo/joint_move.h"
 #include "servo/pose_servo.h"
 
@@ -50,17 +50,13 @@ class ArmMotion {
                                 const RingGoal& goal);
 
  private:
-  JointVector remember(const JointVector& velocity);
-
   Pose eMr_;
-  JointLimits limits_;
+  Limiter limiter_;
   double speed_fraction_;
-  double gain_per_s_;
   double lead_s_;  ///< from a state to the middle of the period in which its command acts
   PoseServo servo_;
   std::optional<JointMove> move_;
   Time move_start_;
-  JointVector previous_ = JointVector::Zero();  ///< last command [rad/s]
 };
 
 }  // namespace ringhook

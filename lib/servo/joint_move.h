@@ -32,7 +32,7 @@ Outcome<JointMove> planJointMove(const JointVector& start, const JointVector& en
 JointSample sampleJointMove(const JointMove& move, double t);
 
 /// Velocity command [rad/s] that follows the move: feed-forward plus gain_per_s [1/s] times the
-/// distance from q to the path. Not yet limited: see limitVelocity().
+/// distance from q to the path. Not yet limited: the arm's limiter does that.
 JointVector trackJointMove(const JointMove& move, double t, const JointVector& q,
                            double gain_per_s);
 

@@ -33,12 +33,14 @@ Geometry rx60() { return {0.341, 0.049, 0.290, 0.310, 0.065}; }
 Geometry rx60L() { return {0.341, 0.049, 0.400, 0.400, 0.065}; }
 
 JointLimits limits() {
-  constexpr double kTimeToNominalSpeed = 0.25;  // [s], the assumption named in the header
+  constexpr double kTimeToNominalSpeed = 0.25;      // [s], the assumptions named in the header
+  constexpr double kTimeToFullAcceleration = 0.04;  // [s]
   JointLimits limits;
   limits.lower = degrees(-160.0, -127.5, -134.5, -270.0, -109.5, -270.0);
   limits.upper = degrees(160.0, 127.5, 134.5, 270.0, 120.5, 270.0);
   limits.velocity = degrees(287.0, 287.0, 319.0, 410.0, 320.0, 700.0);
   limits.acceleration = limits.velocity / kTimeToNominalSpeed;
+  limits.jerk = limits.acceleration / kTimeToFullAcceleration;
   return limits;
 }
 

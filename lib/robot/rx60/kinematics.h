@@ -37,8 +37,9 @@ Geometry rx60L();
 inline constexpr double kCartesianSpeedLimit = 1.8;
 
 /// Ranges and nominal speeds as published, the same for both arms. The maker publishes no
-/// accelerations: ours assume nominal speed after 0.25 s (20 rad/s^2 at joints 1 and 2): a value
-/// to be replaced by what a user's arm is measured to do.
+/// accelerations and jerks: ours assume nominal speed after 0.25 s (20 rad/s^2 at joints 1 and 2)
+/// and full acceleration after 0.04 s: values to be replaced by what a user's arm is measured to
+/// do.
 JointLimits limits();
 
 /// fMe at joint angles q [rad].
