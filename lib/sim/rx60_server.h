@@ -1,0 +1,81 @@
+#pragma once
+
+/// \file
+/// The simulated controller on real TCP sockets, as a client on a network meets it: four listening
+/// ports, ticks every 4 ms of the host's steady clock on an absolute grid. A host that is too slow
+/// for a tick leaves it out (and counts it) instead of catching up: two ticks at once would make a
+/// faster controller than there is.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sim/rx60_controller.h"
+#include "sim/rx60_lines.h"
+#include "sim/tcp_listener.h"
+
+namespace ringhook {
+
+struct Rx60ServerOptions {
+  std::string address = "127.0.0.1";  ///< numeric, of an interface of this host
+  /// In the order of kRx60Sockets; 0 takes a free port, which port() then tells.
+  std::array<std::uint16_t, kRx60Sockets.size()> ports = {11000, 11001, 11002, 11003};
+  std::uint64_t seed = 1;  ///< of the lines' faults
+};
+
+class Rx60Server final : public Rx60Lines {
+ public:
+  /// Listens from now on; serves in run(). The controller must outlive the server. Throws
+  /// DeviceError naming address and port if a port cannot be had.
+  explicit Rx60Server(Rx60Controller& controller, const Rx60ServerOptions& options = {});
+
+  [[nodiscard]] std::uint16_t port(Rx60Socket socket) const;
+
+  /// Called before each of the controller's ticks, with the time since run() began.
+  void onTick(std::function<void(Time)> action) { on_tick_ = std::move(action); }
+  /// Called for each connection that comes, goes or is turned away.
+  void onEvent(std::function<void(Time, const std::string&)> action) {
+    on_event_ = std::move(action);
+  }
+
+  /// Serves on the caller's thread until `stop` is set or seconds [s] are over; then closes every
+  /// connection. To be called once.
+  void run(const std::atomic<bool>& stop, double seconds = std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] std::int64_t lateTicks() const { return late_ticks_; }  ///< left out
+
+  // Faults of the lines; from onTick() or before run().
+  [[nodiscard]] FaultyLine& toClient(Rx60Socket socket) override { return at(socket).to_client; }
+  [[nodiscard]] FaultyLine& toController(Rx60Socket socket) override {
+    return at(socket).to_controller;
+  }
+  void cut(Rx60Socket socket) override;
+
+ private:
+  struct Wire {
+    TcpListener tcp;
+    FaultyLine to_client;
+    FaultyLine to_controller;
+  };
+  [[nodiscard]] Wire& at(Rx60Socket socket) { return wires_[static_cast<std::size_t>(socket)]; }
+  void tell(const std::string& what);
+  void sleepUntil(Time wake);
+  [[nodiscard]] Time nextEvent() const;
+  void serve(Rx60Socket socket);
+  void drop(Rx60Socket socket, const std::string& why);
+  void runTick(Time clock);
+
+  Rx60Controller& controller_;
+  std::vector<Wire> wires_;
+  std::function<void(Time)> on_tick_;
+  std::function<void(Time, const std::string&)> on_event_;
+  Time now_;               ///< since run() began
+  std::int64_t tick_ = 1;  ///< number of the next one, at tick_ * 4 ms
+  std::int64_t late_ticks_ = 0;
+};
+
+}  // namespace ringhook
