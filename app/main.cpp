@@ -9,6 +9,7 @@
 #include "app/evaluate.h"
 #include "app/interrupt.h"
 #include "app/servo.h"
+#include "app/simulate.h"
 #include "core/error.h"
 
 namespace {
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
   ringhook::addServoCommand(app);
   ringhook::addCalibrateCommand(app);
   ringhook::addEvaluateCommand(app);
+  ringhook::addSimulateCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -30,7 +32,7 @@ int run(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::fprintf(stderr,
-                 "ringhook: a command is required: servo, calibrate or evaluate\n"
+                 "ringhook: a command is required: servo, calibrate, evaluate or simulate\n"
                  "Run with --help for more information.\n");
     return 2;
   }

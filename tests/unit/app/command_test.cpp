@@ -161,7 +161,7 @@ TEST_F(Command, VersionIsTheProjectsOwn) {
 TEST_F(Command, HelpNamesEveryCommand) {
   const ProgramResult result = run({"--help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* command : {"servo", "calibrate", "evaluate"}) {
+  for (const char* command : {"servo", "calibrate", "evaluate", "simulate"}) {
     EXPECT_THAT(result.out, HasSubstr(command));
   }
 }
@@ -183,7 +183,8 @@ TEST_P(CommandHelp, ShowsAnExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Command, CommandHelp,
-                         ::testing::Values("servo", "calibrate stereo", "evaluate sequence"),
+                         ::testing::Values("servo", "calibrate stereo", "evaluate sequence",
+                                           "simulate"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), ' ', '_');

@@ -29,6 +29,8 @@ class Program {
 
   /// Waits until it says `text` on standard error; false if it ends without.
   bool waitUntilItSays(const std::string& text);
+  /// On standard error.
+  [[nodiscard]] const std::string& saidSoFar() const { return err_; }
   void signal(int number);
   /// Waits for its end.
   ProgramResult wait();
