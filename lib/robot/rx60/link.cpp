@@ -247,10 +247,6 @@ void Link::send(Channel channel, CommType comm, const Body& body) {
 }
 
 void Link::sendVelocity(const JointVector& velocity, Time now) {
-  if (unanswered_ >= settings_.max_unanswered) {
-    ++report_.left_out;  // what is queued acts meanwhile, and the queue gets shorter
-    return;
-  }
   if (unanswered_++ == 0) {
     answered_ = now;
   }

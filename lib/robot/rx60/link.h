@@ -107,6 +107,7 @@ class Link {
   void configure(Time now);
   void settle(Time now);
   void servo(Time now);
+  [[nodiscard]] bool backlogged();
   void followMove(Time now);
 
   // faults

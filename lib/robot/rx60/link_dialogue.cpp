@@ -187,6 +187,9 @@ void Link::settle(Time now) {
   if (cfg_unanswered_) {
     return;
   }
+  if (backlogged()) {
+    return;
+  }
   sendVelocity(JointVector::Zero(), now);
   if (--settle_left_ <= 0) {
     limiter_.reset();
@@ -194,11 +197,22 @@ void Link::settle(Time now) {
   }
 }
 
+/// So many commands wait for their reply that one is left out: what is queued acts meanwhile, and
+/// the queue gets shorter.
+bool Link::backlogged() {
+  const bool full = unanswered_ >= settings_.max_unanswered;
+  report_.left_out += full ? 1 : 0;
+  return full;
+}
+
 void Link::servo(Time now) {
   if (!targetFresh(now)) {
     has_target_ = false;
     sendStop(now);
     enter(LinkState::kStopping, now);
+    return;
+  }
+  if (backlogged()) {
     return;
   }
   const double age = now - target_.given;

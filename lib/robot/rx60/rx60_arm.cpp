@@ -63,10 +63,6 @@ void Rx60Arm::run() noexcept {
 }
 
 void Rx60Arm::turn(Lock& lock) {
-  if (link_.wantsClose()) {
-    port_->close();
-    link_.closed();
-  }
   if (link_.wantsOpen()) {
     open(lock);
   }
@@ -100,6 +96,16 @@ void Rx60Arm::serve() {
   }
   link_.pass(now);
   flush();
+  closeIfUseless();
+}
+
+/// A closed connection stops the arm even if commands are still on their way. Only for the thread
+/// that waits on the port.
+void Rx60Arm::closeIfUseless() {
+  if (link_.wantsClose()) {
+    port_->close();
+    link_.closed();
+  }
 }
 
 void Rx60Arm::readAll(rx60::Channel channel, Time now) {
@@ -195,6 +201,9 @@ void Rx60Arm::stop() noexcept {
     const Lock lock(mutex_);
     link_.stop(port_->now());
     flush();
+    if (runs_ == Runs::kInWaitState) {
+      closeIfUseless();
+    }
   } catch (...) {
     // Nothing is left to try: the controller zeroes a velocity that is not renewed.
     return;

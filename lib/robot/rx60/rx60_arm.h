@@ -60,6 +60,7 @@ class Rx60Arm : public Arm {
   void serve();
   void readAll(rx60::Channel channel, Time now);
   void flush();
+  void closeIfUseless();
   template <class Done>
   void waitUntil(Lock& lock, Done done);
   void awaitReady(Lock& lock);
