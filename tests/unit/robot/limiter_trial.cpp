@@ -135,6 +135,9 @@ WatchResult LimiterTrial::run(long inputs) {
                               .velocity;
     const bool slow = manual && k - manual_since >= kPeriodsToBrake;
     watch.see(q_, v, slow ? settings_.tool_speed_manual_m_s : settings_.tool_speed_automatic_m_s);
+    if (!v.allFinite()) {
+      break;  // nothing can be said of what follows
+    }
     q_ += settings_.period_s * v;
   }
   return watch.result();
