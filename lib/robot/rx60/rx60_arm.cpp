@@ -80,6 +80,7 @@ void Rx60Arm::open(Lock& lock) {
     port_->open();
   } catch (const DeviceError& e) {
     failure = e.what();
+    failure.erase(failure.find_last_not_of('.') + 1);  // it goes into a sentence of the fault
   }
   lock.lock();
   if (failure.empty()) {

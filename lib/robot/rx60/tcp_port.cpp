@@ -95,8 +95,8 @@ Time TcpPort::now() const {
 
 void TcpPort::open() {
   close();
-  const std::array<std::uint16_t, kChannels.size()> ports = {address_.motion_port,
-                                                             address_.state_port, address_.io_port};
+  const std::array<std::uint16_t, kChannels.size()> ports = {
+      address_.state_port, address_.motion_port, address_.io_port};
   for (std::size_t i = 0; i < sockets_.size(); ++i) {
     sockets_[i].fd = connectTo(address_.host, ports[i], address_.connect_timeout_s);
     sockets_[i].revents = 0;
