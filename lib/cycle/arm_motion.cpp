@@ -38,7 +38,7 @@ JointVector ArmMotion::rest(const ArmState& state) {
 Outcome<JointVector> ArmMotion::moveTo(const ArmState& state, const JointVector& target) {
   if (!move_ || move_->end != target) {
     const Outcome<JointMove> planned =
-        planJointMove(state.position, target, rx60::limits(), speed_fraction_);
+        planJointMove(state.position, target, limiter_.reach(), speed_fraction_);
     if (!planned) {
       return Refusal{planned.reason()};
     }

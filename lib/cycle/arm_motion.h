@@ -40,7 +40,7 @@ class ArmMotion {
   JointVector rest(const ArmState& state);
 
   /// Moves towards `target` [rad] from rest to rest; plans anew when the target changes. Refuses
-  /// targets outside the joint limits.
+  /// targets outside the limiter's reach.
   Outcome<JointVector> moveTo(const ArmState& state, const JointVector& target);
   /// True once the last moveTo() target is reached within a milliradian per joint.
   [[nodiscard]] bool arrived(const ArmState& state) const;

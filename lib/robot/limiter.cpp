@@ -147,6 +147,13 @@ void Limiter::reset() {
   sent_.fill(JointVector::Zero());
 }
 
+JointLimits Limiter::reach() const {
+  JointLimits limits = settings_.limits;
+  limits.lower.array() += settings_.position_margin_rad;
+  limits.upper.array() -= settings_.position_margin_rad;
+  return limits;
+}
+
 bool Limiter::atRest() const {
   return velocity_.cwiseAbs().maxCoeff() < kSame && acceleration_.cwiseAbs().maxCoeff() < 1e-6;
 }
@@ -195,9 +202,9 @@ StopBounds Limiter::boundsNow(OperatingMode mode) const {
     bounds.joints[i] = {s.velocity_fraction * s.limits.velocity(row), s.limits.acceleration(row),
                         s.limits.jerk(row) * s.period_s, s.period_s};
   }
-  const JointVector margin = JointVector::Constant(s.position_margin_rad);
-  bounds.lower = s.limits.lower + margin;
-  bounds.upper = s.limits.upper - margin;
+  const JointLimits within_margin = reach();
+  bounds.lower = within_margin.lower;
+  bounds.upper = within_margin.upper;
   bounds.tool_speed = kBetweenEnds * (mode == OperatingMode::kManual ? s.tool_speed_manual_m_s
                                                                      : s.tool_speed_automatic_m_s);
   bounds.box = s.box;

@@ -81,6 +81,9 @@ class Limiter {
   /// The arm is known to stand still, wherever it is.
   void reset();
 
+  /// The joint limits with the margin taken off: where the arm may be sent.
+  [[nodiscard]] JointLimits reach() const;
+
   [[nodiscard]] const JointVector& velocity() const { return velocity_; }  ///< last one [rad/s]
 
  private:

@@ -73,7 +73,7 @@ TEST(Limiter, KeepsPositionLimitsAndArrivesWhenCommandsAreLost) {
   const LimiterSettings settings;
   Limiter limiter(settings);
   JointVector q = middle();
-  const JointVector goal = settings.limits.upper - JointVector::Constant(0.002);
+  const JointVector goal = limiter.reach().upper;
   for (int k = 0; k < 4000; ++k) {
     const LimitedVelocity out = limiter.limit(5.0 * (goal - q), q);
     EXPECT_FALSE(out.bad_input);
