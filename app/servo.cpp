@@ -19,6 +19,7 @@ struct ServoArguments {
   std::string cell = RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml";
   std::string scenario;
   std::string tracker = "marker";
+  std::string arm_link = "direct";
   std::string out = "out/servo";
   std::string json;
   int cycles = 3;
@@ -30,6 +31,7 @@ ServoJob jobFrom(const ServoArguments& arguments) {
   job.cell_file = arguments.cell;
   job.scenario = arguments.scenario;
   job.tracker = arguments.tracker == "edges" ? TrackerKind::kEdges : TrackerKind::kMarker;
+  job.arm_link = arguments.arm_link == "rx60" ? ArmLink::kRx60 : ArmLink::kDirect;
   job.cycles = arguments.cycles;
   job.seed = arguments.seed;
   job.out = arguments.out;
@@ -114,6 +116,10 @@ void addServoCommand(CLI::App& app) {
       ->type_name("NAME");
   command->add_option("--tracker", arguments->tracker, "How the hook is seen")
       ->check(CLI::IsMember({"marker", "edges"}));
+  command
+      ->add_option("--arm-link", arguments->arm_link,
+                   "How the simulated arm is reached: in process, or over the RX60's protocol")
+      ->check(CLI::IsMember({"direct", "rx60"}));
   command->add_option("--cycles", arguments->cycles, "Hooks to serve")->check(CLI::Range(1, 10000));
   command->add_option("--seed", arguments->seed, "Of everything random in a simulated cell")
       ->check(CLI::NonNegativeNumber);

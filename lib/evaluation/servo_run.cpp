@@ -10,6 +10,7 @@
 #include "sim/scenario.h"
 #include "sim/sim_arm.h"
 #include "sim/sim_stereo_camera.h"
+#include "sim/wired_sim_arm.h"
 
 namespace ringhook {
 namespace {
@@ -63,6 +64,19 @@ Pose pictureView(const Eigen::Vector3d& ring_f) {
   return fMc;
 }
 
+std::unique_ptr<Arm> makeArm(CellWorld& world, const ServoJob& job) {
+  if (job.arm_link == ArmLink::kRx60) {
+    return std::make_unique<WiredSimArm>(world, job.seed);
+  }
+  return std::make_unique<SimArm>(world);
+}
+
+/// The cell with the delay that the way of commanding its arm adds.
+CellConfig withCommandDelay(CellConfig cell, const Arm& arm) {
+  cell.arm.delay_s += arm.commandDelay();
+  return cell;
+}
+
 /// One belt: the simulated devices, the loop's stages, the witness, and the job on it.
 class Belt {
  public:
@@ -72,10 +86,10 @@ class Belt {
         told_rig_(loadRig(cell.rig)),
         true_rig_(disturbedRig(told_rig_, job.seed)),
         world_(worldOptions(std::move(scenario), job, first, hooks)),
-        arm_(world_),
+        arm_(makeArm(world_, job)),
         camera_(world_, true_rig_, cameraOptions(cell)),
         vision_(cell, told_rig_, job.tracker),
-        task_(cell),
+        task_(withCommandDelay(cell, *arm_)),
         witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
                  [this](const AttemptTruth& truth) { picture(truth); }),
         first_(first),
@@ -88,7 +102,7 @@ class Belt {
       witness_.startAttempt(i == 0 ? recorder() : nullptr);
       ProgressObserver observer(witness_, progress, i);
       ServoAttempt attempt;
-      attempt.loop = runAttempt(camera_, arm_, vision_, task_, observer, stop);
+      attempt.loop = runAttempt(camera_, *arm_, vision_, task_, observer, stop);
       attempt.truth = witness_.attempt();
       witness_.endAttempt();
       report.attempts.push_back(attempt);
@@ -144,7 +158,7 @@ class Belt {
   StereoRig told_rig_;
   StereoRig true_rig_;
   CellWorld world_;
-  SimArm arm_;
+  std::unique_ptr<Arm> arm_;
   SimStereoCamera camera_;
   VisionStep vision_;
   TaskControl task_;

@@ -20,10 +20,17 @@
 
 namespace ringhook {
 
+/// How the loop reaches the simulated arm.
+enum class ArmLink {
+  kDirect,  ///< in process
+  kRx60,    ///< through the RX60's client, its protocol and the simulated controller
+};
+
 struct ServoJob {
   std::filesystem::path cell_file;
   std::string scenario;  ///< name beside the cell's own scenario; empty for the cell's own
   TrackerKind tracker = TrackerKind::kMarker;
+  ArmLink arm_link = ArmLink::kDirect;
   int cycles = 3;  ///< hooks, one attempt each
   std::uint64_t seed = 1;
   std::filesystem::path out;  ///< folder for the sequence and the picture

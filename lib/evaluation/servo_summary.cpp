@@ -100,6 +100,7 @@ std::string servoSummaryJson(const ServoJob& job, const ServoReport& report) {
                {"scenario", report.scenario},
                {"tracker", job.tracker == TrackerKind::kMarker ? "marker" : "edges"},
                {"seed", job.seed},
+               {"arm_link", job.arm_link == ArmLink::kRx60 ? "rx60" : "direct"},
                {"cycle_time_s", cycle_time.mean()},
                {"peak_contact_n", peak_contact},
                {"aborts", aborts},

@@ -32,6 +32,10 @@ class Arm {
   /// Explicit permission to move again after stop() or a fault.
   virtual void rearm() = 0;
 
+  /// From a state's instant until the command that answers it begins to act, as far as the way of
+  /// commanding is the reason [s]. Network and drives come on top (the cell file's delay_ms).
+  [[nodiscard]] virtual double commandDelay() const = 0;
+
   /// Opens (false) or closes (true) the gripper; returns at once.
   virtual void setGripper(bool closed) = 0;
 };

@@ -22,6 +22,7 @@ class SimArm : public Arm {
   void commandVelocity(const JointVector& joint_velocity) override;
   void stop() noexcept override;
   void rearm() override;
+  [[nodiscard]] double commandDelay() const override { return 0.0; }
   void setGripper(bool closed) override;
 
  private:

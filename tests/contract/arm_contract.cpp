@@ -65,9 +65,27 @@ TEST_P(ArmContract, ACommandedVelocityIsFollowed) {
   const JointVector expected = slow() * 25 * kPeriod;
   const double late = 0.2 * kPeriod * (0.1 + held().periodsToFollow());
   EXPECT_LT((end.position - start.position - expected).cwiseAbs().maxCoeff(), late);
-  const ArmState later = drive(slow(), 25);
-  EXPECT_LT((later.position - end.position - slow() * 26 * kPeriod).cwiseAbs().maxCoeff(), 1e-4)
+  ArmState later = end;
+  for (int i = 0; i < 25; ++i) {
+    arm().commandVelocity(slow());
+    later = arm().waitState();
+  }
+  EXPECT_LT((later.position - end.position - expected).cwiseAbs().maxCoeff(), 1e-4)
       << "once followed it is followed exactly";
+}
+
+TEST_P(ArmContract, ACommandActsAfterTheDelayThatIsStated) {
+  wakeUp();
+  const ArmState start = drive(JointVector::Zero(), 3);
+  int periods = 0;
+  ArmState state = start;
+  while (moved(start, state) < 1e-9 && periods < 20) {
+    arm().commandVelocity(slow());
+    state = arm().waitState();
+    ++periods;
+  }
+  // The period in which it moved ends with the state in which that shows.
+  EXPECT_NEAR((periods - 1) * kPeriod, arm().commandDelay(), 1e-9);
 }
 
 TEST_P(ArmContract, TheStatesVelocityIsThePositionsChange) {

@@ -17,14 +17,14 @@ constexpr double kLookAgain = 0.002;
 }  // namespace
 
 Rx60Arm::Rx60Arm(std::unique_ptr<rx60::LinkPort> port, const rx60::LinkSettings& settings,
-                 Runs runs)
+                 Runs runs, Needs needs)
     : port_(std::move(port)), link_(settings), runs_(runs) {
   if (runs_ == Runs::kOnItsOwnThread) {
     thread_ = std::thread([this] { run(); });
   }
   try {
     Lock lock(mutex_);
-    awaitReady(lock);
+    awaitReady(lock, needs);
   } catch (...) {
     end();
     throw;
@@ -145,12 +145,13 @@ void Rx60Arm::waitUntil(Lock& lock, Done done) {
 
 // ---- the interface
 
-void Rx60Arm::awaitReady(Lock& lock) {
+void Rx60Arm::awaitReady(Lock& lock, Needs needs) {
   waitUntil(lock, [this] {
     return !link_.wantsOpen() && link_.state() != LinkState::kDisconnected &&
            link_.state() != LinkState::kAwaitState && link_.state() != LinkState::kStopping;
   });
-  if (link_.state() == LinkState::kFault) {
+  const bool streams = link_.open() && needs == Needs::kState;
+  if (link_.state() == LinkState::kFault && !streams) {
     throw DeviceError("The RX60 is not ready: " + link_.report().last_fault + ".");
   }
 }
@@ -221,8 +222,10 @@ void Rx60Arm::rearm() {
     throw DeviceError("The RX60 cannot be re-armed: " + done.reason() + ".");
   }
   flush();
-  awaitReady(lock);
+  awaitReady(lock, Needs::kMotion);
 }
+
+double Rx60Arm::commandDelay() const { return 2.0 * link_.settings().limiter.period_s; }
 
 void Rx60Arm::setGripper(bool closed) {
   const Lock lock(mutex_);

@@ -22,10 +22,13 @@ namespace ringhook {
 class Rx60Arm : public Arm {
  public:
   enum class Runs { kOnItsOwnThread, kInWaitState };
+  /// What must be there to begin with: permitted motion, or no more than the stream of states.
+  enum class Needs { kMotion, kState };
 
-  /// Connects and waits until the controller streams and permits motion. Throws DeviceError that
-  /// says what is missing.
-  Rx60Arm(std::unique_ptr<rx60::LinkPort> port, const rx60::LinkSettings& settings, Runs runs);
+  /// Connects and waits until the controller streams and, if needed, permits motion. Throws
+  /// DeviceError that says what is missing.
+  Rx60Arm(std::unique_ptr<rx60::LinkPort> port, const rx60::LinkSettings& settings, Runs runs,
+          Needs needs = Needs::kMotion);
   /// Stops the arm, then closes the connections.
   ~Rx60Arm() override;
 
@@ -40,6 +43,9 @@ class Rx60Arm : public Arm {
   /// Throws DeviceError if the controller does not permit motion. After a lost connection this
   /// connects anew, as the constructor does.
   void rearm() override;
+  /// Two periods: a command goes out in answer to the next feedback, and the controller takes it
+  /// in the tick after that.
+  [[nodiscard]] double commandDelay() const override;
   void setGripper(bool closed) override;
 
   /// Starts a coarse move through points in joint space; the arm stands still at each. Throws
@@ -63,7 +69,7 @@ class Rx60Arm : public Arm {
   void closeIfUseless();
   template <class Done>
   void waitUntil(Lock& lock, Done done);
-  void awaitReady(Lock& lock);
+  void awaitReady(Lock& lock, Needs needs);
   void end() noexcept;
   [[noreturn]] void refuse(const std::string& why);
 

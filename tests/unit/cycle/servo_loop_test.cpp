@@ -50,6 +50,7 @@ class FakeArm : public Arm {
   void commandVelocity(const JointVector&) override { script_.reach("commandVelocity"); }
   void stop() noexcept override { script_.calls.push_back("stop"); }
   void rearm() override { script_.reach("rearm"); }
+  [[nodiscard]] double commandDelay() const override { return 0.0; }
   void setGripper(bool) override { script_.reach("setGripper"); }
 
   bool motion_possible = true;
