@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/arm.h"
 #include "app/calibrate.h"
 #include "app/evaluate.h"
 #include "app/interrupt.h"
@@ -21,6 +22,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);  // checked below: this way an unknown word is named
   app.footer("Example: ringhook servo --cycles 3 --tracker edges --out out/servo");
   ringhook::addServoCommand(app);
+  ringhook::addArmCommand(app);
   ringhook::addCalibrateCommand(app);
   ringhook::addEvaluateCommand(app);
   ringhook::addSimulateCommand(app);
@@ -32,7 +34,7 @@ int run(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::fprintf(stderr,
-                 "ringhook: a command is required: servo, calibrate, evaluate or simulate\n"
+                 "ringhook: a command is required: servo, arm, calibrate, evaluate or simulate\n"
                  "Run with --help for more information.\n");
     return 2;
   }

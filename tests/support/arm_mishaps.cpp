@@ -8,23 +8,15 @@
 #include <random>
 
 #include "core/error.h"
+#include "dealt_mishap.h"
 #include "robot/rx60/rx60_arm.h"
 #include "wire_watch.h"
 
 namespace ringhook::test {
 namespace {
 
-constexpr double kStopWithin = 0.020;    // after which the commanded speed must be zero [s]
 constexpr double kVisionPeriod = 0.020;  // [s]
 constexpr double kLatestTarget = 0.250;  // a target this old no longer acts [s]
-
-/// When the commanded speed must be zero: from `since` on, after `grace_s` at the latest.
-struct MustStand {
-  Time since;
-  double grace_s = kStopWithin;
-  double lasts_s = 1e9;    ///< the reason to stand ends by itself
-  double longest_s = 0.0;  ///< how long after `since` it was last seen moving
-};
 
 class Episode {
  public:
@@ -42,11 +34,8 @@ class Episode {
   void onTick(Time time);
   void serve(double seconds, bool silent = false);
   void deal(Mishap mishap);
-  void dealToController(Mishap mishap);
-  void dealToLines(Mishap mishap);
   void misuse(Mishap mishap);
   void endStand();
-  void mend();
   void bringBack();
   void tryMove();
   void revoke();
@@ -143,86 +132,6 @@ void Episode::fault() {
   revoke();
 }
 
-void Episode::dealToController(Mishap mishap) {
-  switch (mishap) {
-    case Mishap::kEStop:
-      controller_.pressEStop();
-      break;
-    case Mishap::kError:
-      controller_.setError(40);
-      break;
-    case Mishap::kDrivesOff:
-      controller_.setDrives(false);
-      break;
-    case Mishap::kCutMotion:
-      wire_->port().cut(Rx60Socket::kMotion);
-      break;
-    case Mishap::kCutState:
-      wire_->port().cut(Rx60Socket::kState);
-      break;
-    default:
-      return;
-  }
-  stand_ = MustStand{now()};
-}
-
-void Episode::dealToLines(Mishap mishap) {
-  ControllerPort& port = wire_->port();
-  LineFaults faults;
-  FaultyLine& feedback = port.toClient(Rx60Socket::kState);
-  FaultyLine& commands = port.toController(Rx60Socket::kMotion);
-  switch (mishap) {
-    case Mishap::kStallToClient:
-      stand_ = MustStand{now()};
-      stand_->lasts_s = uniform(0.01, 0.5);
-      feedback.stall(now(), stand_->lasts_s);
-      break;
-    case Mishap::kStallToController:
-      commands.stall(now(), uniform(0.01, 0.5));
-      in_flight_s_ = 0.5;
-      break;
-    case Mishap::kHalfOpenState:
-      faults.half_open = true;
-      feedback.setFaults(faults);
-      stand_ = MustStand{now()};
-      break;
-    case Mishap::kHalfOpenMotion:
-      faults.half_open = true;
-      commands.setFaults(faults);
-      stand_ = MustStand{now()};
-      break;
-    case Mishap::kLostFeedback:
-      faults.loss = uniform(0.05, 0.9);
-      feedback.setFaults(faults);
-      break;
-    case Mishap::kLostCommands:
-      faults.loss = uniform(0.05, 0.9);
-      commands.setFaults(faults);
-      break;
-    case Mishap::kDelay:
-      faults.delay = uniform(0.001, 0.04);
-      break;
-    case Mishap::kJitter:
-      faults.jitter = uniform(0.001, 0.03);
-      break;
-    case Mishap::kSplit:
-      faults.split_gap = uniform(0.0005, 0.005);
-      break;
-    case Mishap::kMerge:
-      faults.merge = uniform(0.005, 0.03);
-      break;
-    default:
-      return;
-  }
-  if (faults.delay + faults.jitter + faults.split_gap + faults.merge > 0.0) {
-    in_flight_s_ = 0.15;
-    for (const Rx60Socket socket : {Rx60Socket::kMotion, Rx60Socket::kState}) {
-      port.toClient(socket).setFaults(faults);
-      port.toController(socket).setFaults(faults);
-    }
-  }
-}
-
 void Episode::misuse(Mishap mishap) {
   JointVector bad = JointVector::Zero();
   try {
@@ -279,30 +188,11 @@ void Episode::tryMove() {
 
 void Episode::deal(Mishap mishap) {
   ControllerPort& port = wire_->port();
-  dealToController(mishap);
-  dealToLines(mishap);
+  DealtMishap dealt = dealMishap(mishap, controller_, port, random_);
+  stand_ = dealt.stand;
+  in_flight_s_ = dealt.in_flight_s;
   misuse(mishap);
-  std::vector<std::byte> nonsense(static_cast<std::size_t>(uniform(1.0, 200.0)));
   switch (mishap) {
-    case Mishap::kCutIo:
-      port.cut(Rx60Socket::kIo);
-      break;
-    case Mishap::kNonsense:
-      for (std::byte& b : nonsense) {
-        b = static_cast<std::byte>(random_() & 0xFFU);
-      }
-      port.toClient(chance(0.5) ? Rx60Socket::kState : Rx60Socket::kMotion).push(nonsense, now());
-      break;
-    case Mishap::kForeignMessage:
-      port.toClient(Rx60Socket::kMotion)
-          .push(
-              rx60::encode({rx60::CommType::kTopic, rx60::ReplyCode::kNone, rx60::JointFeedback{}})
-                  .bytes(),
-              now());
-      break;
-    case Mishap::kManualMode:
-      controller_.setPendantMode(rx60::PendantMode::kManual);
-      break;
     case Mishap::kSilentVision:
       stand_ = MustStand{now(), kLatestTarget + kStopWithin};
       serve(0.5, true);
@@ -317,21 +207,6 @@ void Episode::deal(Mishap mishap) {
       break;
     default:
       break;
-  }
-}
-
-void Episode::mend() {
-  controller_.releaseEStop();
-  controller_.setError(0);
-  controller_.setDrives(true);
-  controller_.setPendantMode(rx60::PendantMode::kAutomatic);
-  controller_.refuseNextPoints(0);
-  for (const Rx60Socket socket : kRx60Sockets) {
-    for (FaultyLine* line :
-         {&wire_->port().toClient(socket), &wire_->port().toController(socket)}) {
-      line->setFaults({});
-      line->stall(now(), 0.0);
-    }
   }
 }
 
@@ -375,7 +250,7 @@ void Episode::run(int mishaps) {
       serve(uniform(0.05, 0.8));
     }
     endStand();
-    mend();
+    mendMishaps(controller_, wire_->port());
     bringBack();
     if (!permitted_) {
       break;

@@ -1,6 +1,7 @@
 #include "robot/rx60/link.h"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 namespace ringhook::rx60 {
@@ -9,7 +10,7 @@ namespace {
 std::size_t indexOf(Channel channel) { return static_cast<std::size_t>(channel); }
 
 std::string milliseconds(double seconds) {
-  return std::to_string(static_cast<int>(seconds * 1e3 + 0.5)) + " ms";
+  return std::to_string(std::llround(seconds * 1e3)) + " ms";
 }
 
 }  // namespace

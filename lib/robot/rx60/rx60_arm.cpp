@@ -70,6 +70,7 @@ void Rx60Arm::turn(Lock& lock) {
   port_->wait(port_->now() + kLookAgain);
   lock.lock();
   serve();
+  ++turns_;
   served_.notify_all();
 }
 
@@ -248,6 +249,12 @@ void Rx60Arm::startMove(std::vector<rx60::JointPoint> points) {
 bool Rx60Arm::moving() const {
   const Lock lock(mutex_);
   return link_.state() == LinkState::kMoving;
+}
+
+void Rx60Arm::awaitNews() {
+  Lock lock(mutex_);
+  const std::int64_t before = turns_;
+  waitUntil(lock, [&] { return turns_ != before; });
 }
 
 rx60::LinkReport Rx60Arm::report() const {

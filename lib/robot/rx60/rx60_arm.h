@@ -54,6 +54,8 @@ class Rx60Arm : public Arm {
   /// True until the move has ended. Call it after waitState(), which throws if the move fails.
   [[nodiscard]] bool moving() const;
 
+  /// Returns after the next wake-up of the link, whatever came; also during a fault.
+  void awaitNews();
   /// How the link is doing; never throws, also during a fault.
   [[nodiscard]] rx60::LinkReport report() const;
 
@@ -80,6 +82,7 @@ class Rx60Arm : public Arm {
   std::condition_variable served_;
   Time given_;  ///< stamp of the state that waitState() gave last
   bool any_given_ = false;
+  std::int64_t turns_ = 0;  ///< wake-ups
   bool ending_ = false;
   std::thread thread_;
 };

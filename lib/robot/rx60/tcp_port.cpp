@@ -4,6 +4,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -81,9 +82,7 @@ int connectTo(const std::string& host, std::uint16_t port, double timeout_s) {
                     std::to_string(port) + ": " + words(error) + ".");
 }
 
-TcpPort::TcpPort(ControllerAddress address) : address_(std::move(address)) {
-  sockets_.fill({-1, POLLIN, 0});
-}
+TcpPort::TcpPort(ControllerAddress address) : address_(std::move(address)) {}
 
 TcpPort::~TcpPort() { TcpPort::close(); }
 
@@ -98,45 +97,42 @@ void TcpPort::open() {
   const std::array<std::uint16_t, kChannels.size()> ports = {
       address_.state_port, address_.motion_port, address_.io_port};
   for (std::size_t i = 0; i < sockets_.size(); ++i) {
-    sockets_[i].fd = connectTo(address_.host, ports[i], address_.connect_timeout_s);
-    sockets_[i].revents = 0;
+    sockets_[i] = {connectTo(address_.host, ports[i], address_.connect_timeout_s), false};
   }
 }
 
 void TcpPort::close() noexcept {
-  for (pollfd& socket : sockets_) {
-    if (socket.fd >= 0) {
-      ::close(std::exchange(socket.fd, -1));
+  for (Socket& socket : sockets_) {
+    if (socket.number >= 0) {
+      ::close(socket.number);
     }
-    socket.revents = 0;
+    socket = Socket();
   }
 }
 
 std::optional<std::size_t> TcpPort::read(Channel channel, std::span<std::byte> into) {
-  pollfd& socket = sockets_[static_cast<std::size_t>(channel)];
-  if (socket.fd < 0) {
+  Socket& socket = sockets_[static_cast<std::size_t>(channel)];
+  if (socket.number < 0) {
     return std::nullopt;
   }
-  if ((socket.revents & kReadable) == 0) {
+  if (!socket.readable) {
     return 0;  // wait() said so: saves a system call on the way to the answer
   }
-  const ssize_t count = ::recv(socket.fd, into.data(), into.size(), 0);
+  const ssize_t count = ::recv(socket.number, into.data(), into.size(), 0);
   if (count > 0) {
     const auto got = static_cast<std::size_t>(count);
-    if (got < into.size()) {
-      socket.revents = 0;
-    }
+    socket.readable = got == into.size();
     return got;
   }
   if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) {
-    socket.revents = 0;
+    socket.readable = false;
     return 0;
   }
   return std::nullopt;
 }
 
 bool TcpPort::write(Channel channel, std::span<const std::byte> frame) {
-  const int socket = sockets_[static_cast<std::size_t>(channel)].fd;
+  const int socket = sockets_[static_cast<std::size_t>(channel)].number;
   if (socket < 0) {
     return false;
   }
@@ -153,10 +149,13 @@ void TcpPort::wait(Time deadline) {
   timespec timeout{};
   timeout.tv_sec = static_cast<time_t>(left_s);
   timeout.tv_nsec = static_cast<long>((left_s - std::floor(left_s)) * 1e9);
-  if (::ppoll(sockets_.data(), sockets_.size(), &timeout, nullptr) <= 0) {
-    for (pollfd& socket : sockets_) {
-      socket.revents = 0;
-    }
+  std::array<pollfd, kChannels.size()> polled{};
+  for (std::size_t i = 0; i < sockets_.size(); ++i) {
+    polled[i] = {sockets_[i].number, POLLIN, 0};  // -1 is passed over
+  }
+  const bool any = ::ppoll(polled.data(), polled.size(), &timeout, nullptr) > 0;
+  for (std::size_t i = 0; i < sockets_.size(); ++i) {
+    sockets_[i].readable = any && (polled[i].revents & kReadable) != 0;
   }
 }
 

@@ -4,8 +4,6 @@
 /// The link's connections as TCP sockets to a controller, and the host's steady clock.
 /// Non-blocking, without Nagle's delay; one frame is one write.
 
-#include <poll.h>
-
 #include <array>
 #include <cstdint>
 #include <string>
@@ -41,7 +39,11 @@ class TcpPort : public LinkPort {
 
  private:
   ControllerAddress address_;
-  std::array<pollfd, kChannels.size()> sockets_{};  ///< in the order of kChannels
+  struct Socket {
+    int number = -1;
+    bool readable = false;  ///< as far as the last wait() saw
+  };
+  std::array<Socket, kChannels.size()> sockets_;  ///< in the order of kChannels
 };
 
 }  // namespace ringhook::rx60

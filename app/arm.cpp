@@ -1,0 +1,250 @@
+#include "app/arm.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "core/error.h"
+#include "robot/rx60/drive_power.h"
+#include "robot/rx60/rx60_arm.h"
+#include "robot/rx60/tcp_port.h"
+
+namespace ringhook {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kPeriod = 0.004;  // between states [s]
+
+struct ArmArguments {
+  rx60::ControllerAddress address;
+  double seconds = 5.0;
+  std::vector<double> to_deg;
+  double speed = 0.05;
+  int joint = 6;
+  double speed_deg_s = 2.0;
+  std::string gripper;
+  std::string power;
+  int gripper_module = 2;
+  int gripper_pin = 0;
+  bool yes = false;
+};
+
+rx60::LinkSettings settingsFrom(const ArmArguments& arguments) {
+  rx60::LinkSettings settings;
+  settings.gripper_module = arguments.gripper_module;
+  settings.gripper_pin = arguments.gripper_pin;
+  return settings;
+}
+
+std::unique_ptr<Rx60Arm> connect(const ArmArguments& arguments, Rx60Arm::Needs needs) {
+  std::fprintf(stderr, "connecting to the controller at %s ...\n", arguments.address.host.c_str());
+  return std::make_unique<Rx60Arm>(std::make_unique<rx60::TcpPort>(arguments.address),
+                                   settingsFrom(arguments), Rx60Arm::Runs::kOnItsOwnThread, needs);
+}
+
+std::string inDegrees(const JointVector& joints) {
+  std::string text;
+  for (int i = 0; i < 6; ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.2f", i == 0 ? "" : " ", joints[i] / kDegree);
+    text += number;
+  }
+  return text;
+}
+
+const char* nameOf(rx60::PendantMode mode) {
+  switch (mode) {
+    case rx60::PendantMode::kManual:
+      return "manual";
+    case rx60::PendantMode::kAutomatic:
+      return "automatic";
+    case rx60::PendantMode::kUnknown:
+      break;
+  }
+  return "unknown mode";
+}
+
+void print(const rx60::LinkReport& report) {
+  std::printf("%-12s joints %s deg   %s deg/s\n", rx60::nameOf(report.state),
+              inDegrees(report.arm.position).c_str(), inDegrees(report.arm.velocity).c_str());
+  std::printf(
+      "             %s, drives %s; period %.3f ms, jitter %.3f ms, longest gap %.1f ms, "
+      "missed %lld of %lld\n",
+      nameOf(report.status.mode), report.status.drives_powered != 0 ? "on" : "off",
+      1e3 * report.arrivals.period_s, 1e3 * report.arrivals.jitter_s,
+      1e3 * report.arrivals.worst_gap_s, static_cast<long long>(report.arrivals.missed_cycles),
+      static_cast<long long>(report.arrivals.feedbacks));
+  if (!report.last_fault.empty()) {
+    std::printf("             last fault: %s\n", report.last_fault.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void throwIfInterrupted() {
+  if (interruptRequested().load()) {
+    throw Interrupted("stopped by the operator; the arm stands still");
+  }
+}
+
+/// The person at the keyboard must have said yes to motion.
+void confirm(const ArmArguments& arguments, const std::string& what) {
+  if (arguments.yes) {
+    return;
+  }
+  std::fprintf(stderr, "%s\nIs everybody out of reach? Type yes: ", what.c_str());
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (answer != "yes") {
+    throw Interrupted("not confirmed: nothing was moved");
+  }
+}
+
+/// States until `seconds` have passed or `more` says no; Ctrl-C stops the arm.
+template <class More>
+void follow(Rx60Arm& arm, double seconds, More more) {
+  const Time begin = arm.waitState().time;
+  for (Time time = begin; time - begin < seconds && more(time - begin);) {
+    throwIfInterrupted();
+    time = arm.waitState().time;
+  }
+}
+
+void watch(const ArmArguments& arguments) {
+  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kState);
+  const rx60::TcpPort clock(arguments.address);
+  const Time begin = clock.now();
+  for (int second = 0; second < arguments.seconds; ++second) {
+    print(arm->report());
+    while (clock.now() - begin < second + 1) {
+      throwIfInterrupted();
+      arm->awaitNews();
+    }
+  }
+}
+
+void move(const ArmArguments& arguments) {
+  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kMotion);
+  JointVector goal;
+  for (int i = 0; i < 6; ++i) {
+    goal[i] = arguments.to_deg.at(static_cast<std::size_t>(i)) * kDegree;
+  }
+  print(arm->report());
+  confirm(arguments, "The arm will move to " + inDegrees(goal) + " deg with " +
+                         std::to_string(static_cast<int>(std::lround(100 * arguments.speed))) +
+                         " % of its nominal speed.");
+  arm->startMove({{goal, arguments.speed}});
+  follow(*arm, 3600.0, [&](double) { return arm->moving(); });
+  print(arm->report());
+}
+
+void jog(const ArmArguments& arguments) {
+  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kMotion);
+  print(arm->report());
+  confirm(arguments, "Joint " + std::to_string(arguments.joint) + " will turn with " +
+                         std::to_string(arguments.speed_deg_s) + " deg/s for " +
+                         std::to_string(arguments.seconds) + " s.");
+  JointVector velocity = JointVector::Zero();
+  follow(*arm, arguments.seconds, [&](double) {
+    velocity[arguments.joint - 1] = arguments.speed_deg_s * kDegree;
+    arm->commandVelocity(velocity);
+    return true;
+  });
+  const rx60::LinkReport report = arm->report();
+  arm->stop();
+  print(report);
+  std::printf("%lld velocities sent, %lld feedbacks drained, %lld commands left out\n",
+              static_cast<long long>(report.commands), static_cast<long long>(report.drained),
+              static_cast<long long>(report.left_out));
+}
+
+void gripper(const ArmArguments& arguments) {
+  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kState);
+  arm->setGripper(arguments.gripper == "close");
+  follow(*arm, 100 * kPeriod, [](double) { return true; });  // a refusal would have come by then
+  std::printf("output %d of module %d is set: gripper %s\n", arguments.gripper_pin,
+              arguments.gripper_module, arguments.gripper == "close" ? "closed" : "open");
+}
+
+void power(const ArmArguments& arguments) {
+  rx60::setDrivePower(arguments.address, arguments.power == "on");
+  std::printf("the controller was told to switch its drives %s; watch tells whether it did\n",
+              arguments.power.c_str());
+}
+
+void addAddress(CLI::App& command, ArmArguments& arguments) {
+  rx60::ControllerAddress& address = arguments.address;
+  command.add_option("--address", address.host, "Of the controller; default 127.0.0.1")
+      ->type_name("HOST");
+  command.add_option("--motion-port", address.motion_port, "Default 11000")->type_name("N");
+  command.add_option("--system-port", address.system_port, "Default 11001")->type_name("N");
+  command.add_option("--state-port", address.state_port, "Default 11002")->type_name("N");
+  command.add_option("--io-port", address.io_port, "Default 11003")->type_name("N");
+}
+
+CLI::App* addStep(CLI::App& parent, const std::shared_ptr<ArmArguments>& arguments,
+                  const std::string& name, const std::string& what, const std::string& example,
+                  void (*run)(const ArmArguments&)) {
+  CLI::App* step = parent.add_subcommand(name, what);
+  step->footer("Example: ringhook arm " + name + " --address 192.168.0.254" + example);
+  addAddress(*step, *arguments);
+  step->callback([arguments, run] { run(*arguments); });
+  return step;
+}
+
+void addMotionOptions(CLI::App& step, ArmArguments& arguments) {
+  step.add_flag("--yes", arguments.yes, "Do not ask before the arm moves");
+}
+
+}  // namespace
+
+void addArmCommand(CLI::App& app) {
+  auto arguments = std::make_shared<ArmArguments>();
+  CLI::App* command = app.add_subcommand("arm", "Looks at an RX60 and moves it by hand");
+  command->require_subcommand(1);
+  command->footer("Example: ringhook arm watch --address 192.168.0.254");
+
+  CLI::App* step =
+      addStep(*command, arguments, "watch", "Tells state, link health and faults", "", watch);
+  step->add_option("--seconds", arguments->seconds, "How long; default 5")
+      ->check(CLI::PositiveNumber);
+
+  step = addStep(*command, arguments, "power", "Switches the drives on or off", " on", power);
+  step->add_option("state", arguments->power, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+
+  step = addStep(*command, arguments, "move", "Moves to joint angles, as a trajectory point",
+                 " --to-deg 0,0,90,0,90,0 --speed 0.05", move);
+  step->add_option("--to-deg", arguments->to_deg, "Six joint angles [deg]")
+      ->required()
+      ->delimiter(',')
+      ->expected(6)
+      ->type_name("J1,...,J6");
+  step->add_option("--speed", arguments->speed, "Share of the nominal joint speeds; default 0.05")
+      ->check(CLI::Range(0.001, 1.0));
+  addMotionOptions(*step, *arguments);
+
+  step = addStep(*command, arguments, "jog", "Turns one joint by velocity commands",
+                 " --joint 6 --speed-deg-s 2 --seconds 3", jog);
+  step->add_option("--joint", arguments->joint, "1 to 6; default 6")->check(CLI::Range(1, 6));
+  step->add_option("--speed-deg-s", arguments->speed_deg_s, "Default 2")
+      ->check(CLI::Range(-20.0, 20.0));
+  step->add_option("--seconds", arguments->seconds, "How long; default 5")
+      ->check(CLI::Range(0.1, 60.0));
+  addMotionOptions(*step, *arguments);
+
+  step = addStep(*command, arguments, "gripper", "Opens or closes the gripper", " open", gripper);
+  step->add_option("state", arguments->gripper, "open or close")
+      ->required()
+      ->check(CLI::IsMember({"open", "close"}));
+  step->add_option("--module", arguments->gripper_module,
+                   "I/O module of the VAL3 server; default 2");
+  step->add_option("--pin", arguments->gripper_pin, "Output of the module; default 0");
+}
+
+}  // namespace ringhook
