@@ -74,7 +74,7 @@ Mishap parseMishap(const std::string& text) {
   return mishap;
 }
 
-MishapScript::MishapScript(std::vector<Mishap> mishaps, Rx60Controller& controller,
+MishapScript::MishapScript(const std::vector<Mishap>& mishaps, Rx60Controller& controller,
                            Rx60Lines& lines)
     : controller_(controller), lines_(lines) {
   for (const Mishap& mishap : mishaps) {

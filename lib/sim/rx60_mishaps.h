@@ -55,7 +55,7 @@ Mishap parseMishap(const std::string& text);
 class MishapScript {
  public:
   /// Controller and lines must outlive the script.
-  MishapScript(std::vector<Mishap> mishaps, Rx60Controller& controller, Rx60Lines& lines);
+  MishapScript(const std::vector<Mishap>& mishaps, Rx60Controller& controller, Rx60Lines& lines);
 
   /// Begins and ends what is due; to be called at the beginning of every tick. What began or ended,
   /// in words.

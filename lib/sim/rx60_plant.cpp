@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "robot/rx60/kinematics.h"
 
 namespace ringhook {
 
-KinematicPlant::KinematicPlant(const JointVector& position) : position_(position) {}
+KinematicPlant::KinematicPlant(JointVector position) : position_(std::move(position)) {}
 
 void KinematicPlant::advanceTo(Time time) {
   if (time <= time_) {

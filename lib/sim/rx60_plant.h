@@ -37,7 +37,7 @@ class Rx60Plant {
 class KinematicPlant : public Rx60Plant {
  public:
   /// \param position joints at time zero [rad].
-  explicit KinematicPlant(const JointVector& position = JointVector::Zero());
+  explicit KinematicPlant(JointVector position = JointVector::Zero());
 
   void advanceTo(Time time) override;
   [[nodiscard]] JointVector position() const override { return position_; }

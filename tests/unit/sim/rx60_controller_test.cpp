@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "rx60_bytes.h"
 
@@ -324,6 +325,24 @@ TEST_F(Rx60Trajectory, StopSequenceForgetsWhatWaits) {
   run(100);
   EXPECT_EQ(plant.position(), stopped);
   EXPECT_EQ(controller.waitingPoints(), 0U);
+}
+
+TEST_F(Rx60Trajectory, LosingEitherSocketEndsTheMoveForGood) {
+  for (const Rx60Socket lost : {kMotion, kState}) {
+    makeReady();
+    const JointVector start = plant.position();
+    const double direction = lost == kMotion ? 1.0 : -1.0;
+    replyTo(trajectoryPoint(1, {direction}, 0.1));
+    replyTo(trajectoryPoint(2, {0.5}, 0.1));
+    run(20);
+    controller.disconnect(lost);
+    run(2);
+    const JointVector stopped = plant.position();
+    EXPECT_GT(direction * (stopped[0] - start[0]), 0.01) << nameOf(lost);
+    controller.connect(lost);
+    run(300);
+    EXPECT_EQ(plant.position(), stopped) << nameOf(lost);
+  }
 }
 
 TEST_F(Rx60Trajectory, PointInVelocityModeSwitchesBackAndIsReached) {
