@@ -89,9 +89,10 @@ bool mayShow(const mjvGeom& geom, const PlaneView& view) {
   if (geom.modelrbound <= 0.0F) {
     return true;
   }
-  const Eigen::Vector3d centre_w(geom.pos[0], geom.pos[1], geom.pos[2]);
+  const Eigen::Vector3d centre_w =
+      Eigen::Vector3f(geom.pos[0], geom.pos[1], geom.pos[2]).cast<double>();
   const Eigen::Vector3d p = view.wMc.inverse() * centre_w;
-  const double radius = geom.modelrbound;
+  const auto radius = static_cast<double>(geom.modelrbound);
   // Signed distance from the plane through the optical centre and an edge of the window.
   const auto inside = [&](double across, double edge_px, double sign) {
     const double slope = edge_px / view.focal_px;

@@ -15,7 +15,10 @@ constexpr int kDeepestLoad = 8;
 constexpr std::size_t kMostEntries = 100000;
 
 std::string readText(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::error_code failed;
+  // A folder or a device would open, but has no end up to which it could be read.
+  const bool regular = std::filesystem::is_regular_file(path, failed);
+  std::ifstream file(regular ? path : std::filesystem::path());
   if (!file) {
     throw InputError(path.string() + ": cannot read this edge model (.cao expected)");
   }
