@@ -47,6 +47,12 @@ std::unique_ptr<Rx60Arm> connect(const ArmArguments& arguments, Rx60Arm::Needs n
                                    settingsFrom(arguments), Rx60Arm::Runs::kOnItsOwnThread, needs);
 }
 
+std::string inWords(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
 std::string inDegrees(const JointVector& joints) {
   std::string text;
   for (int i = 0; i < 6; ++i) {
@@ -128,16 +134,20 @@ void watch(const ArmArguments& arguments) {
 }
 
 void move(const ArmArguments& arguments) {
-  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kMotion);
   JointVector goal;
   for (int i = 0; i < 6; ++i) {
     goal[i] = arguments.to_deg.at(static_cast<std::size_t>(i)) * kDegree;
   }
+  const std::vector<rx60::JointPoint> points = {{goal, arguments.speed}};
+  if (const Outcome<std::size_t> checked = checkPoints(points, rx60::limits()); !checked) {
+    throw InputError("arm move: --to-deg: " + checked.reason());
+  }
+  const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kMotion);
   print(arm->report());
   confirm(arguments, "The arm will move to " + inDegrees(goal) + " deg with " +
                          std::to_string(static_cast<int>(std::lround(100 * arguments.speed))) +
                          " % of its nominal speed.");
-  arm->startMove({{goal, arguments.speed}});
+  arm->startMove(points);
   follow(*arm, 3600.0, [&](double) { return arm->moving(); });
   print(arm->report());
 }
@@ -146,8 +156,8 @@ void jog(const ArmArguments& arguments) {
   const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kMotion);
   print(arm->report());
   confirm(arguments, "Joint " + std::to_string(arguments.joint) + " will turn with " +
-                         std::to_string(arguments.speed_deg_s) + " deg/s for " +
-                         std::to_string(arguments.seconds) + " s.");
+                         inWords(arguments.speed_deg_s) + " deg/s for " +
+                         inWords(arguments.seconds) + " s.");
   JointVector velocity = JointVector::Zero();
   follow(*arm, arguments.seconds, [&](double) {
     velocity[arguments.joint - 1] = arguments.speed_deg_s * kDegree;

@@ -72,6 +72,12 @@ TEST_F(ServoClosedLoop, EdgesHangARing) {
   EXPECT_LT(report.statistics.fix_error_m.mean(), 1e-3);
 }
 
+TEST_F(ServoClosedLoop, HangsARingThroughTheRx60sProtocolToo) {
+  ServoJob job = oneHook(TrackerKind::kMarker, 1);
+  job.arm_link = ArmLink::kRx60;
+  expectHung(run(job));
+}
+
 // Each seed draws hooks of another length, damping and phase, and other errors of arm and cameras.
 class ServoSeeds : public ServoClosedLoop, public ::testing::WithParamInterface<std::uint64_t> {};
 

@@ -16,12 +16,6 @@ using ::testing::HasSubstr;
 
 JointVector wellInside() { return JointVector{{0.3, 0.4, 0.9, -0.2, 0.8, 0.1}}; }
 
-rx60::LinkSettings settings() {
-  rx60::LinkSettings s;
-  s.gripper_module = 2;
-  return s;
-}
-
 /// Controller, wire and client, all in virtual time.
 class Rx60ArmUnderTest : public ArmUnderTest {
  public:
@@ -39,7 +33,7 @@ class Rx60ArmUnderTest : public ArmUnderTest {
   /// Connects when first asked for.
   Rx60Arm& client() {
     if (!arm_) {
-      arm_.emplace(std::move(unconnected_), settings(), Rx60Arm::Runs::kInWaitState);
+      arm_.emplace(std::move(unconnected_), rx60::LinkSettings(), Rx60Arm::Runs::kInWaitState);
     }
     return *arm_;
   }
@@ -95,6 +89,35 @@ TEST(Rx60Arm, MissesNoTickWhileATargetOf50HzIsServed) {
   const Rx60Counts after = held.controller().counts();
   EXPECT_EQ(after.velocity_ticks - before.velocity_ticks, 2500);
   EXPECT_EQ(after.missed_ticks - before.missed_ticks, 0);
+}
+
+TEST(Rx60Arm, WorksOffABacklogThatAHiccupLeft) {
+  Rx60ArmUnderTest held;
+  Rx60Arm& arm = held.client();
+  drive(arm, slow(), 20);
+  const rx60::VelocityCmd extra;  // one message more than ticks, ahead of all that follow
+  for (int k = 0; k < 2; ++k) {
+    held.port().write(
+        rx60::Channel::kMotion,
+        rx60::encode({rx60::CommType::kTopic, rx60::ReplyCode::kNone, extra}).bytes());
+  }
+  drive(arm, slow(), 10);
+  EXPECT_GE(held.controller().waitingBytes(Rx60Socket::kMotion), 2 * 48U) << "it stands";
+  drive(arm, slow(), 150);
+  EXPECT_LT(held.controller().waitingBytes(Rx60Socket::kMotion), 2 * 48U);
+  EXPECT_EQ(arm.report().left_out, 2);
+}
+
+TEST(Rx60Arm, AcceptsThatCommandsAreUnderWayOnALongWire) {
+  Rx60ArmUnderTest held;
+  LineFaults late;
+  late.delay = 0.005;
+  held.port().toController(Rx60Socket::kMotion).setFaults(late);
+  held.port().toClient(Rx60Socket::kMotion).setFaults(late);
+  Rx60Arm& arm = held.client();
+  drive(arm, slow(), 1000);
+  EXPECT_LE(arm.report().left_out, 3) << "tried once for each command under way";
+  EXPECT_GE(arm.report().left_out, 1);
 }
 
 TEST(Rx60Arm, TheGripperIsTheConfiguredOutput) {
@@ -186,7 +209,7 @@ TEST(Rx60Arm, LeavesTheArmStandingWhenItGoes) {
   KinematicPlant plant(wellInside());
   Rx60Controller controller(plant);
   {
-    Rx60Arm arm(std::make_unique<ControllerPort>(controller, plant), settings(),
+    Rx60Arm arm(std::make_unique<ControllerPort>(controller, plant), rx60::LinkSettings(),
                 Rx60Arm::Runs::kInWaitState);
     drive(arm, slow(), 60);
     EXPECT_NE(controller.commandedVelocity(), JointVector::Zero());

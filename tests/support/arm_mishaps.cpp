@@ -76,9 +76,8 @@ void Episode::connect() {
   port->onTick([this](Time time) { onTick(time); });
   auto wire = std::make_unique<WireWatch>(std::move(port));
   wire_ = wire.get();
-  rx60::LinkSettings settings;
-  settings.gripper_module = 2;
-  arm_ = std::make_unique<Rx60Arm>(std::move(wire), settings, Rx60Arm::Runs::kInWaitState);
+  arm_ =
+      std::make_unique<Rx60Arm>(std::move(wire), rx60::LinkSettings(), Rx60Arm::Runs::kInWaitState);
 }
 
 void Episode::onTick(Time time) {

@@ -50,7 +50,10 @@ const char* nameOf(LinkState state) {
 }
 
 Link::Link(const LinkSettings& settings)
-    : settings_(settings), limiter_(settings.limiter), clock_(settings.limiter.period_s) {
+    : settings_(settings),
+      limiter_(settings.limiter),
+      clock_(settings.limiter.period_s),
+      backlog_(settings.max_unanswered) {
   wants_open_ = true;
 }
 
@@ -67,6 +70,7 @@ void Link::opened(Time now) {
   stop_unanswered_.reset();
   io_unanswered_.reset();
   unanswered_ = 0;
+  backlog_ = BacklogGuard(settings_.max_unanswered);
   out_begin_ = out_end_ = 0;
   last_feedback_ = last_status_ = now;
   enter(LinkState::kAwaitState, now);

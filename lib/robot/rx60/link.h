@@ -25,6 +25,7 @@
 
 #include "core/outcome.h"
 #include "robot/limiter.h"
+#include "robot/rx60/backlog_guard.h"
 #include "robot/rx60/frame_reader.h"
 #include "robot/rx60/link_port.h"
 #include "robot/rx60/link_settings.h"
@@ -107,7 +108,7 @@ class Link {
   void configure(Time now);
   void settle(Time now);
   void servo(Time now);
-  [[nodiscard]] bool backlogged();
+  [[nodiscard]] bool leavesOut();
   void followMove(Time now);
 
   // faults
@@ -126,6 +127,7 @@ class Link {
   FeedbackClock clock_;
   std::array<FrameReader, kChannels.size()> readers_;
   PointSender points_;
+  BacklogGuard backlog_;
   LinkReport report_;
   Target target_;
   bool has_target_ = false;

@@ -187,7 +187,7 @@ void Link::settle(Time now) {
   if (cfg_unanswered_) {
     return;
   }
-  if (backlogged()) {
+  if (leavesOut()) {
     return;
   }
   sendVelocity(JointVector::Zero(), now);
@@ -197,12 +197,11 @@ void Link::settle(Time now) {
   }
 }
 
-/// So many commands wait for their reply that one is left out: what is queued acts meanwhile, and
-/// the queue gets shorter.
-bool Link::backlogged() {
-  const bool full = unanswered_ >= settings_.max_unanswered;
-  report_.left_out += full ? 1 : 0;
-  return full;
+/// What is queued acts meanwhile, and the queue gets shorter.
+bool Link::leavesOut() {
+  const bool left_out = backlog_.leaveOut(unanswered_);
+  report_.left_out += left_out ? 1 : 0;
+  return left_out;
 }
 
 void Link::servo(Time now) {
@@ -212,7 +211,7 @@ void Link::servo(Time now) {
     enter(LinkState::kStopping, now);
     return;
   }
-  if (backlogged()) {
+  if (leavesOut()) {
     return;
   }
   const double age = now - target_.given;

@@ -26,8 +26,8 @@ struct LinkSettings {
   int settle_periods = 12;     ///< zeros sent after VELOCITY_CFG was acknowledged
   int max_unanswered = 4;      ///< commands without a reply; beyond, one is left out
   double refusal_patience_s = 20.0;  ///< how long a refused trajectory point is sent again
-  double standstill_s = 2.0;  ///< accepted points that do not move the arm for so long: fault
-  std::int32_t gripper_module = 0;
+  double standstill_s = 2.0;        ///< accepted points that do not move the arm for so long: fault
+  std::int32_t gripper_module = 2;  ///< of the VAL3 server: 1 and 2 are the arm's own
   std::int32_t gripper_pin = 0;
   bool gripper_closes_on = true;  ///< the state of the output that closes the gripper
 };
