@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calib/solve/stereo_problem.h"
+#include "core/shortest_turn.h"
 
 namespace ringhook {
 
@@ -52,7 +53,7 @@ std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view)
   const Eigen::Quaterniond half(Eigen::AngleAxisd(0.5 * c2Rc1.angle(), c2Rc1.axis()));
   const Eigen::Vector3d along = half.conjugate() * rig.c2Mc1.translation();
   const Eigen::Vector3d x_axis = (along.x() < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::UnitX();
-  const auto level = Eigen::Quaterniond::FromTwoVectors(along, x_axis);
+  const Eigen::Quaterniond level = shortestTurn(along, x_axis);
   const double focal = 0.25 * (rig.left.K(0, 0) + rig.left.K(1, 1) + right.K(0, 0) + right.K(1, 1));
   const auto row = [&](const CameraModel& camera, const Eigen::Quaterniond& turn,
                        const Eigen::Vector2d& pixel) {

@@ -1,5 +1,6 @@
 #include "core/pose.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace ringhook {
@@ -69,7 +70,7 @@ Pose expSe3(const Twist& twist_b) {
 Twist logSe3(const Pose& aMb) {
   Twist twist;
   const Vector3d w = thetaU(aMb.linear());
-  twist << leftJacobian(w).partialPivLu().solve(Vector3d(aMb.translation())), w;
+  twist << leftJacobian(w).inverse() * aMb.translation(), w;
   return twist;
 }
 

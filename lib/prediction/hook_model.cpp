@@ -154,10 +154,16 @@ HangingMeasurement hangingMeasurement(const HookFix& fix, const HookFilterOption
   Covariance6 twist_covariance = fix.covariance;
   twist_covariance.diagonal().head<3>().array() += std::pow(options.position_floor_m, 2);
   twist_covariance.diagonal().tail<3>().array() += std::pow(options.rotation_floor_rad, 2);
-  const Eigen::Matrix<double, 6, 6> back = hangingJacobian(hanging, anchor_o).inverse();
+  // The inverse of a block triangular matrix whose first block is a rotation.
+  const Covariance6 J = hangingJacobian(hanging, anchor_o);
+  Covariance6 back = Covariance6::Zero();
+  back.topLeftCorner<3, 3>() = J.topLeftCorner<3, 3>().transpose();
+  back.bottomRightCorner<3, 3>() = J.bottomRightCorner<3, 3>().inverse();
+  back.topRightCorner<3, 3>() =
+      -back.topLeftCorner<3, 3>() * J.topRightCorner<3, 3>() * back.bottomRightCorner<3, 3>();
   HangingMeasurement measurement;
   measurement.value << hanging.pivot_f, hanging.swing_x, hanging.swing_y, hanging.yaw;
-  measurement.covariance = back * twist_covariance * back.transpose();
+  measurement.covariance = carried(back, twist_covariance);
   return measurement;
 }
 
@@ -202,11 +208,11 @@ HookEstimate composeHookEstimate(const HookBelief& belief, Time time,
   Eigen::Vector3d anchor_o = anchorInHook(options);
   // Without its last column the measurement matrix takes out the anchor that the state has.
   Matrix6X C = measurementMatrix(options, Eigen::Vector3d::Zero());
-  const HangingPose hanging = hangingOf(C * belief.mean);
+  const HangingPose hanging = hangingOf(product(C, belief.mean));
   if (isPendulum(options)) {
     anchor_o.z() += belief.mean(kLonger);
   }
-  Matrix6X JC = hangingJacobian(hanging, anchor_o) * C;
+  Matrix6X JC = product(hangingJacobian(hanging, anchor_o), C);
   if (isPendulum(options)) {
     JC(2, kLonger) = -1.0;  // hanging longer lowers o along its own z
   }
@@ -215,7 +221,7 @@ HookEstimate composeHookEstimate(const HookBelief& belief, Time time,
   estimate.fMo = poseFromHanging(hanging, anchor_o);
   estimate.twist_f =
       hangingTwist(hanging, anchor_o, belief.mean.segment<3>(3), angleRates(belief, options));
-  estimate.covariance = JC * belief.covariance * JC.transpose();
+  estimate.covariance = carried(JC, belief.covariance);
   return estimate;
 }
 

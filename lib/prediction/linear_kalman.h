@@ -19,6 +19,19 @@
 
 namespace ringhook {
 
+/// a * b, coefficient by coefficient: as fast at these sizes as Eigen's blocked product, which
+/// takes seconds to compile. Not for a state of fifty or more.
+template <class A, class B>
+Eigen::Matrix<double, A::RowsAtCompileTime, B::ColsAtCompileTime> product(const A& a, const B& b) {
+  return a.lazyProduct(b);
+}
+
+/// a b a^T
+template <class A, class B>
+Eigen::Matrix<double, A::RowsAtCompileTime, A::RowsAtCompileTime> carried(const A& a, const B& b) {
+  return product(product(a, b), a.transpose());
+}
+
 /// Belief about a state of size N; units as the state defines them.
 template <int N>
 struct Gaussian {
@@ -47,8 +60,8 @@ template <int N>
 Gaussian<N> kalmanPredict(const Gaussian<N>& belief, const Eigen::Matrix<double, N, N>& A,
                           const Eigen::Matrix<double, N, N>& Q) {
   Gaussian<N> ahead;
-  ahead.mean = A * belief.mean;
-  const Eigen::Matrix<double, N, N> P = A * belief.covariance * A.transpose() + Q;
+  ahead.mean = product(A, belief.mean);
+  const Eigen::Matrix<double, N, N> P = carried(A, belief.covariance) + Q;
   ahead.covariance = 0.5 * (P + P.transpose());
   return ahead;
 }
@@ -59,17 +72,16 @@ Correction<N, M> kalmanCorrect(const Gaussian<N>& prior, const Eigen::Matrix<dou
                                const Eigen::Matrix<double, M, N>& C,
                                const Eigen::Matrix<double, M, M>& R) {
   Correction<N, M> result;
-  const Eigen::Matrix<double, M, N> CP = C * prior.covariance;
-  result.innovation = y - C * prior.mean;
-  result.innovation_covariance = CP * C.transpose() + R;
+  const Eigen::Matrix<double, M, N> CP = product(C, prior.covariance);
+  result.innovation = y - product(C, prior.mean);
+  result.innovation_covariance = product(CP, C.transpose()) + R;
   const Eigen::LLT<Eigen::Matrix<double, M, M>> llt(result.innovation_covariance);
   const Eigen::Matrix<double, N, M> K = llt.solve(CP).transpose();
   result.nis = result.innovation.dot(llt.solve(result.innovation));
-  result.belief.mean = prior.mean + K * result.innovation;
-  Eigen::Matrix<double, N, N> IKC = -K * C;
+  result.belief.mean = prior.mean + product(K, result.innovation);
+  Eigen::Matrix<double, N, N> IKC = -product(K, C);
   IKC.diagonal().array() += 1.0;
-  const Eigen::Matrix<double, N, N> P =
-      IKC * prior.covariance * IKC.transpose() + K * R * K.transpose();
+  const Eigen::Matrix<double, N, N> P = carried(IKC, prior.covariance) + carried(K, R);
   result.belief.covariance = 0.5 * (P + P.transpose());
   return result;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/shortest_turn.h"
 #include "rig/covered_rectangle.h"
 #include "rig/rectify_map.h"
 
@@ -127,7 +128,7 @@ std::vector<TurnedCamera> turnedPair(const StereoRig& rig) {
   // Then x along the baseline, on the side where it points now.
   const Vector3d t = half.transpose() * rig.c2Mc1.translation();
   const Vector3d along(t.x() < 0.0 ? -1.0 : 1.0, 0.0, 0.0);
-  const Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(t, along).toRotationMatrix();
+  const Matrix3d turn = shortestTurn(t, along).toRotationMatrix();
   cameras[0].rRc = turn * half;
   cameras[1].rRc = turn * half.transpose();
   const double focal =

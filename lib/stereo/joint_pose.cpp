@@ -1,7 +1,6 @@
 #include "stereo/joint_pose.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -55,8 +54,8 @@ bool seesEveryMotion(const Matrix6& H) {
     return false;
   }
   const Matrix6 scaled = scale.cwiseInverse().asDiagonal() * H * scale.cwiseInverse().asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0] >
-         kRankLimit;
+  // The smallest eigenvalue is above the limit: what is left without it is positive definite.
+  return Eigen::LLT<Matrix6>(scaled - kRankLimit * Matrix6::Identity()).info() == Eigen::Success;
 }
 
 class Minimiser {
@@ -103,7 +102,7 @@ class Minimiser {
   bool step(const NormalEquations& normal) {
     Matrix6 damped = normal.H;
     damped.diagonal() *= 1.0 + damping_;
-    const Vector6 d = -damped.ldlt().solve(normal.g);
+    const Vector6 d = -damped.llt().solve(normal.g);
     const Pose candidate = c1Mo_ * expSe3(d);
     const double cost = costUnder(rows_, rows_);
     const bool small = damping_ <= 1.0 && -normal.g.dot(d) < kConverged * (1.0 + cost);
@@ -147,7 +146,8 @@ class Minimiser {
     if (!seesEveryMotion(H)) {
       return Refusal{"too few features"};
     }
-    fix.covariance = inflation(chi_square, weights - 6.0) * H.ldlt().solve(Matrix6::Identity());
+    fix.covariance =
+        inflation(chi_square, weights - 6.0) * Matrix6(H.llt().solve(Matrix6::Identity()));
     return fix;
   }
 

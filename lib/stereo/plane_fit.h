@@ -2,7 +2,7 @@
 
 /// \file
 /// Plane through points by total least squares: the normal is the direction of least scatter about
-/// the centroid, the last right singular vector of the centred points (Pearson 1901).
+/// the centroid, the last eigenvector of the scatter matrix (Pearson 1901).
 
 #include <Eigen/Core>
 #include <vector>

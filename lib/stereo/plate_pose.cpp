@@ -1,11 +1,14 @@
 #include "stereo/plate_pose.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/shortest_turn.h"
 #include "stereo/joint_pose.h"
 #include "stereo/plane_fit.h"
 #include "stereo/rigid_fit.h"
@@ -17,6 +20,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+using Vector8 = Eigen::Matrix<double, 8, 1>;
 
 constexpr double kFlatness = 0.02;  // distance from the plane over extent
 
@@ -85,22 +90,30 @@ Matrix3d normaliser(const std::vector<Vector2d>& points) {
   return T;
 }
 
-/// Homography from plane coordinates to normalised image coordinates.
-Matrix3d homography(const std::vector<Vector2d>& plane, const std::vector<Vector2d>& image) {
+/// Homography from plane coordinates to normalised image coordinates, least squares. Its last
+/// entry between normalised points is 1: the depth of their centroid, which the camera sees.
+Outcome<Matrix3d> homography(const std::vector<Vector2d>& plane,
+                             const std::vector<Vector2d>& image) {
   const Matrix3d T = normaliser(plane);
   const Matrix3d S = normaliser(image);
-  Eigen::MatrixXd A(2 * static_cast<Eigen::Index>(plane.size()), 9);
+  Matrix8 information = Matrix8::Zero();
+  Vector8 right = Vector8::Zero();
   for (std::size_t i = 0; i < plane.size(); ++i) {
     const Eigen::RowVector3d p = (T * plane[i].homogeneous()).transpose();
     const Vector3d q = S * image[i].homogeneous();
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    A.row(row) << p, Eigen::RowVector3d::Zero(), -q.x() * p;
-    A.row(row + 1) << Eigen::RowVector3d::Zero(), p, -q.y() * p;
+    Eigen::Matrix<double, 2, 8> rows;
+    rows << p, Eigen::RowVector3d::Zero(), -q.x() * p.head<2>(),  //
+        Eigen::RowVector3d::Zero(), p, -q.y() * p.head<2>();
+    information += rows.transpose().lazyProduct(rows);
+    right += rows.transpose() * q.head<2>();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
-  const Eigen::Matrix<double, 9, 1> h = svd.matrixV().col(8);
-  const Matrix3d H = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
-  return S.inverse() * H * T;
+  const Vector8 h = information.llt().solve(right);
+  if (!h.allFinite()) {
+    return Refusal{"corners seen on one line"};
+  }
+  Matrix3d H;
+  H << h.head<3>().transpose(), h.segment<3>(3).transpose(), h.tail<2>().transpose(), 1.0;
+  return Matrix3d(S.inverse() * H * T);
 }
 
 /// Camera pose of the plane frame: H = lambda (r1 r2 t), the rotation made orthonormal.
@@ -121,8 +134,7 @@ Pose mirroredPose(const Pose& cMplane) {
   const Vector3d normal = cMplane.linear().col(2);
   const Vector3d mirrored = 2.0 * normal.dot(sight) * sight - normal;
   Pose other = cMplane;
-  other.linear() =
-      Eigen::Quaterniond::FromTwoVectors(normal, mirrored).toRotationMatrix() * cMplane.linear();
+  other.linear() = shortestTurn(normal, mirrored).toRotationMatrix() * cMplane.linear();
   return other;
 }
 
@@ -142,7 +154,11 @@ Outcome<std::vector<Pose>> candidatesOf(const CameraFeatures& camera) {
     image.emplace_back((corner.pixel.x() - camera.camera.cx) / camera.camera.fx,
                        (corner.pixel.y() - camera.camera.cy) / camera.camera.fy);
   }
-  const Pose cMplane = poseOfHomography(homography(plane, image));
+  const auto H = homography(plane, image);
+  if (!H) {
+    return Refusal{H.reason()};
+  }
+  const Pose cMplane = poseOfHomography(*H);
   const Pose c1Mc = camera.camera.cMc1.inverse();
   return std::vector<Pose>{c1Mc * cMplane * oMplane.inverse(),
                            c1Mc * mirroredPose(cMplane) * oMplane.inverse()};

@@ -26,7 +26,7 @@ Outcome<Pose> platePoseFromPoints(const HookView& view);
 
 /// c1Mo without any start, from one or two cameras with at least four corners each of one plane.
 /// `cameras` that see fewer are used for the choice only. Refuses "too few corners", "corners not
-/// in one plane", "no pose explains the corners".
+/// in one plane", "corners seen on one line", "no pose explains the corners".
 Outcome<Pose> planarStartPose(const std::vector<CameraFeatures>& cameras);
 
 /// The hook from one camera of the view alone (index into view.cameras), as the report's single

@@ -1,6 +1,5 @@
 #include "stereo/triangulation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
@@ -123,11 +122,11 @@ Outcome<TriangulatedPoint> triangulateOptimal(const PinholeView& left, const Pin
     if (!at) {
       return Refusal{"point behind a camera"};
     }
-    const Eigen::LDLT<Matrix3d> normal(at->J.transpose() * at->J);
-    const Vector3d step = normal.solve(at->J.transpose() * at->r);
+    const Matrix3d inverse = Matrix3d(at->J.transpose() * at->J).inverse();
+    const Vector3d step = inverse * (at->J.transpose() * at->r);
     out.point_c1 += step;
     if (step.norm() <= kConverged * out.point_c1.norm()) {
-      out.covariance = sigma_px * sigma_px * normal.solve(Matrix3d::Identity());
+      out.covariance = sigma_px * sigma_px * inverse;
       return judged(out, residualsAt({&left, &right}, {left_px, right_px}, out.point_c1), options);
     }
   }

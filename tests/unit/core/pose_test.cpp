@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/pinhole_view.h"
+#include "core/shortest_turn.h"
 
 namespace ringhook {
 namespace {
@@ -97,6 +98,28 @@ TEST(PinholeView, ProjectsByTheClosedFormAndRefusesPointsBehind) {
   EXPECT_NEAR(pixel->y(), 2400 * 0.2 / 2.0 + 900, 1e-9);
   EXPECT_FALSE(view.project(Vector3d(0, 0, -1)).has_value());
   EXPECT_FALSE(view.project(Vector3d(0, 0, 0)).has_value());
+}
+
+TEST(ShortestTurn, TurnsOneDirectionIntoAnotherAcrossBoth) {
+  const Eigen::Vector3d from(0.2, -0.1, 2.0);
+  const Eigen::Vector3d to(-3.0, 0.5, 0.3);
+  const Eigen::Quaterniond turn = shortestTurn(from, to);
+  EXPECT_NEAR(turn.norm(), 1.0, 1e-14);
+  EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-14);
+  const Eigen::Vector3d theta_u = thetaU(turn.toRotationMatrix());
+  EXPECT_NEAR(theta_u.dot(from), 0.0, 1e-14);
+  EXPECT_NEAR(theta_u.norm(), std::acos(from.normalized().dot(to.normalized())), 1e-14);
+  EXPECT_TRUE(shortestTurn(from, 3.0 * from).isApprox(Eigen::Quaterniond::Identity(), 1e-14));
+}
+
+TEST(ShortestTurn, IsHalfATurnBetweenOppositeDirections) {
+  for (const double off : {0.0, 1e-9, 1e-7, 1e-5, 1e-3}) {
+    const Eigen::Vector3d from(0.2, -0.1, 2.0);
+    const Eigen::Vector3d to = -from + off * Eigen::Vector3d::UnitX();
+    const Eigen::Quaterniond turn = shortestTurn(from, to);
+    EXPECT_NEAR(turn.norm(), 1.0, 1e-14) << off;
+    EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-8) << off;
+  }
 }
 
 }  // namespace

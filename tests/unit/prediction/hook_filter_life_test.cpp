@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <random>
 
 #include "core/error.h"
@@ -179,18 +178,15 @@ TEST_P(LongRun, CovarianceStaysSymmetricPositiveDefinite) {
   const HangingMeasurement measurement = hangingMeasurement(fix, options);
   HookBelief belief = startHookBelief(measurement, options);
   std::uniform_real_distribution<double> gap(1e-4, 0.04);
-  double lowest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 100000; ++i) {
     belief = advanceHookBelief(belief, gap(scene.random), options);
     belief = correctHookBelief(belief, measurement, options).belief;
     ASSERT_EQ(belief.covariance, belief.covariance.transpose());
     if (i % 1000 == 999) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(belief.covariance);
-      lowest = std::min(lowest, solver.eigenvalues()(0));
+      ASSERT_EQ(belief.covariance.llt().info(), Eigen::Success) << i;
       ASSERT_TRUE(belief.mean.allFinite());
     }
   }
-  EXPECT_GT(lowest, 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, LongRun,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/shortest_turn.h"
 #include "sample_views.h"
 #include "stereo/plane_fit.h"
 #include "stereo/plate_pose.h"
@@ -18,8 +19,7 @@ TEST(PlaneFit, FindsTheNormalOfATiltedPlane) {
   const Vector3d normal = Vector3d(0.3, -0.5, 0.8).normalized();
   std::vector<Vector3d> points;
   for (const Vector3d& p : test::plateCorners()) {
-    points.push_back(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal) * p +
-                     Vector3d(1, 2, 3));
+    points.push_back(shortestTurn(Vector3d::UnitZ(), normal) * p + Vector3d(1, 2, 3));
   }
   const auto plane = fitPlane(points);
   ASSERT_TRUE(plane);
