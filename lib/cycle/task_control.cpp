@@ -4,26 +4,9 @@
 
 #include "cycle/back_off.h"
 #include "cycle/belt_geometry.h"
+#include "cycle/task_paths.h"
 
 namespace ringhook {
-namespace {
-
-InsertionParameters pathParameters(const TaskConfig& task, double gripper_time_s) {
-  InsertionParameters p;
-  p.tip_o = task.tip_o;
-  p.hover_height = task.hover_m;
-  p.release_o = task.release_o;
-  p.retreat_o = task.retreat_o;
-  p.hold_s = gripper_time_s;
-  p.approach.linear = task.approach_speed_m_s;
-  p.align.linear = task.approach_speed_m_s;
-  p.lower.linear = task.path_speed_m_s;
-  p.retreat.linear = task.approach_speed_m_s;
-  return p;
-}
-
-}  // namespace
-
 const char* phaseName(TaskPhase phase) {
   static constexpr std::array kNames = {"load",  "grip",    "standby", "wait",  "approach", "align",
                                         "lower", "release", "retreat", "watch", "back off", "done"};
@@ -31,9 +14,7 @@ const char* phaseName(TaskPhase phase) {
 }
 
 TaskControl::TaskControl(const CellConfig& cell)
-    : cell_(cell),
-      path_parameters_(pathParameters(cell.task, cell.arm.gripper_time_s)),
-      motion_(cell) {}
+    : cell_(cell), path_parameters_(pathParameters(cell)), motion_(cell) {}
 
 void TaskControl::startAttempt() {
   result_ = {};
@@ -125,7 +106,8 @@ TaskCommand TaskControl::wait(const ArmState& state) {
     if (now) {
       const double travel = hookTravel(cell_, now->fMo);
       const double speed = hookTravelSpeed(cell_, *now);
-      if (travel + std::abs(speed) * insertionTime() > cell_.belt.pick_to_m) {
+      if (travel + std::abs(speed) * insertionTime(cell_, path_parameters_) >
+          cell_.belt.pick_to_m) {
         abort("hook came too late for the arm's window", state);
       } else if (travel >= cell_.belt.pick_from_m) {
         result_.met = state.time;
@@ -297,17 +279,6 @@ std::optional<Pose> TaskControl::hookNow(const ArmState& state) const {
   }
   const Outcome<HookEstimate> now = predictHook(*hook_, state.time);
   return now ? std::optional<Pose>(now->fMo) : std::nullopt;
-}
-
-double TaskControl::insertionTime() const {
-  const Pose standoff = makePose(path_parameters_.tip_o + path_parameters_.standoff_offset_o,
-                                 Eigen::Quaterniond::Identity());
-  double time = cell_.task.align_dwell_s + cell_.arm.gripper_time_s;
-  for (const InsertionPhase phase : {InsertionPhase::kAlign, InsertionPhase::kLower}) {
-    time += pathDuration(planPhase(phase, standoff, path_parameters_));
-  }
-  constexpr double kApproachTime = 2.0;  // [s]; from standby to beside the hook, generously
-  return time + kApproachTime;
 }
 
 }  // namespace ringhook

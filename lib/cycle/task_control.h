@@ -90,7 +90,6 @@ class TaskControl {
   void abort(const std::string& reason, const ArmState& state);
   [[nodiscard]] std::string whyNotFollow(const ArmState& state) const;
   [[nodiscard]] std::optional<Pose> hookNow(const ArmState& state) const;
-  [[nodiscard]] double insertionTime() const;
 
   CellConfig cell_;
   InsertionParameters path_parameters_;
