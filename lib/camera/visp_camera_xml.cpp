@@ -4,7 +4,9 @@
 #include <visp3/core/vpXmlParserCamera.h>
 
 #include <fstream>
+#include <iostream>
 #include <iterator>
+#include <sstream>
 
 #include "core/error.h"
 
@@ -12,6 +14,19 @@ namespace ringhook {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Keeps what ViSP's reader tells std::cout away from the program's own output.
+class QuietOutput {
+ public:
+  QuietOutput() : kept_(std::cout.rdbuf(swallowed_.rdbuf())) {}
+  ~QuietOutput() { std::cout.rdbuf(kept_); }
+  QuietOutput(const QuietOutput&) = delete;
+  QuietOutput& operator=(const QuietOutput&) = delete;
+
+ private:
+  std::ostringstream swallowed_;
+  std::streambuf* kept_;
+};
 
 /// Reads one projection model, for the image size or for any; false if the file has none of that
 /// kind for that camera.
@@ -21,6 +36,7 @@ bool parse(vpXmlParserCamera& parser, vpCameraParameters& camera, const fs::path
   const auto width = static_cast<unsigned>(size.width);
   const auto height = static_cast<unsigned>(size.height);
   const auto path = file.string();
+  const QuietOutput quiet;
   return parser.parse(camera, path, name, kind, width, height) == vpXmlParserCamera::SEQUENCE_OK ||
          parser.parse(camera, path, name, kind) == vpXmlParserCamera::SEQUENCE_OK;
 }

@@ -34,6 +34,14 @@ TEST(VispCamera, KudIsTheFirstRadialTerm) {
   EXPECT_NEAR(pixel.y(), 236.8 + 602.4 * ideal.y() * factor, 1e-9);
 }
 
+TEST(VispCamera, IsReadInSilence) {
+  const ScratchFolder folder;
+  const auto file = folder.write("camera.xml", cameraXml(""));
+  ::testing::internal::CaptureStdout();
+  EXPECT_NO_THROW((void)loadAnyRig(file, {640, 480}));
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
 TEST(VispCamera, TakesTheImagesSizeWhereTheFileTellsNone) {
   const ScratchFolder folder;
   const auto file = folder.write("camera.xml", cameraXml(""));
