@@ -2,6 +2,7 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -238,6 +239,8 @@ StereoRig loadRig(const fs::path& path) {
     return rig;
   } catch (const cv::Exception& e) {
     throw InputError(path.string() + ": is not a YAML file that OpenCV can read (" + e.err + ")");
+  } catch (const std::length_error&) {  // what OpenCV 4.6 makes of an entry without a key
+    throw InputError(path.string() + ": is not a YAML file that OpenCV can read (a key is empty)");
   }
 }
 

@@ -10,7 +10,7 @@
 namespace ringhook::fuzz {
 namespace {
 
-constexpr int kMostTicks = 5000;  // an input ends there
+constexpr int kMostTicks = 700;  // an input ends there
 
 Rx60ControllerOptions optionsOf(Script& script) {
   Rx60ControllerOptions options;

@@ -19,13 +19,14 @@ using rx60::LinkState;
 using rx60::ReplyCode;
 
 constexpr double kPeriod = 0.004;
+constexpr std::size_t kMostPeriods = 64;  // served in one input
 
 class Dialogue {
  public:
   explicit Dialogue(Script script) : script_(script), link_(rx60::LinkSettings{}) {}
 
   void run() {
-    while (!script_.over()) {
+    while (!script_.over() && served_ < kMostPeriods) {
       const bool armed = link_.armed();
       step();
       look(armed);
@@ -108,6 +109,7 @@ class Dialogue {
   void serve(std::size_t periods) {
     const JointVector wanted = target();
     const bool moves = script_.byte() % 2 == 0;
+    served_ += periods;
     for (std::size_t i = 0; i < periods; ++i) {
       now_ = now_ + kPeriod;
       arm_ += kPeriod * velocity_;
@@ -270,6 +272,7 @@ class Dialogue {
   Script script_;
   rx60::Link link_;
   Time now_;
+  std::size_t served_ = 0;
   JointVector arm_ = JointVector::Constant(0.3);      ///< of the orderly controller [rad]
   JointVector velocity_ = JointVector::Zero();        ///< sent last [rad/s]
   std::array<std::vector<std::byte>, 3> heard_;       ///< waits for the next wake-up, per channel
