@@ -23,7 +23,7 @@ Outcome<Plane> fitPlane(const std::vector<Eigen::Vector3d>& points) {
     scatter += (p - plane.centroid) * (p - plane.centroid).transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);  // smallest first
-  const Eigen::Vector3d squares = solver.eigenvalues();
+  const Eigen::Vector3d& squares = solver.eigenvalues();
   if (!(squares[1] > kOneLine * kOneLine * squares[2])) {
     return Refusal{"points on one line"};
   }
