@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-#include "robot/rx60/frame_reader.h"
+#include "core/error.h"
 #include "robot/rx60/rx60_arm.h"
 #include "robot/rx60/tcp_port.h"
 #include "sim/rx60_server.h"
@@ -44,6 +44,16 @@ JointVector targetAt(double t) {
     v[i] = 0.2 * std::sin((1.0 + 0.2 * i) * t + i) + 0.01;
   }
   return v;
+}
+
+/// Gives the arm its target; a fault (this machine stood still for too long) is told and cleared.
+void command(Rx60Arm& arm, const JointVector& target) {
+  try {
+    arm.commandVelocity(target);
+  } catch (const DeviceError&) {
+    std::printf("fault: %s\n", arm.report().last_fault.c_str());
+    arm.rearm();
+  }
 }
 
 /// A served controller that notes how many ticks in a row stayed without a command.
@@ -131,7 +141,7 @@ void serveOurs(Served& served, double seconds) {
       begun = true;
       served.begin();
     }
-    arm.commandVelocity(targetAt(std::chrono::duration<double>(next - begin).count()));
+    command(arm, targetAt(std::chrono::duration<double>(next - begin).count()));
     next += kVisionPeriod;
     std::this_thread::sleep_until(next);
   }
@@ -281,7 +291,7 @@ class WakeUps {
     settings.stall_s = settings.reply_s = 1.0;  // the measuring thread may be held up
     Rx60Arm arm(std::make_unique<rx60::TcpPort>(address), settings, Rx60Arm::Runs::kOnItsOwnThread);
     for (double t = 0.0; !done; t += 0.02) {
-      arm.commandVelocity(targetAt(t));
+      command(arm, targetAt(t));
       std::this_thread::sleep_for(kVisionPeriod);
     }
   }

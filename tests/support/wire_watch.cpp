@@ -9,6 +9,7 @@ namespace ringhook::test {
 namespace {
 
 constexpr double kPeriod = 0.004;
+constexpr double kForgottenAfter = 0.010;  // [s]
 // The wire carries float32: half a unit of the last place of 5 rad/s, differentiated once and
 // twice.
 constexpr double kSpeedRounding = 5e-7;  // [rad/s]
@@ -42,6 +43,14 @@ void WireWatch::wait(Time deadline) {
 void WireWatch::look(const JointVector& velocity) {
   ++commands_;
   static const JointLimits limits = rx60::limits();
+  // After ticks without a command the arm stands, and a client may begin from rest.
+  const bool small =
+      ((velocity.cwiseAbs() - kPeriod * kPeriod * limits.jerk).array() < kSpeedRounding).all();
+  if (now() - last_ > kForgottenAfter && small) {
+    velocity_.setZero();
+    acceleration_.setZero();
+  }
+  last_ = now();
   const JointVector acceleration = (velocity - velocity_) / kPeriod;
   const JointVector jerk = (acceleration - acceleration_) / kPeriod;
   const auto say = [this](const char* what) {

@@ -108,7 +108,7 @@ class Link {
   void configure(Time now);
   void settle(Time now);
   void servo(Time now);
-  [[nodiscard]] bool leavesOut();
+  [[nodiscard]] bool leavesOut(Time now);
   void followMove(Time now);
 
   // faults
@@ -145,6 +145,7 @@ class Link {
   Time last_feedback_;
   Time last_status_;
   Time last_motion_;  ///< of the arm, while points are under way
+  Time last_sent_;    ///< last velocity, or the decision to leave one out
   std::optional<Time> cfg_unanswered_;
   std::optional<Time> stop_unanswered_;
   std::optional<Time> io_unanswered_;

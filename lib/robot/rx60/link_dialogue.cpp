@@ -9,8 +9,9 @@
 namespace ringhook::rx60 {
 namespace {
 
-constexpr double kStandingRadS = 1e-3;  // slower than this is standing still
-constexpr double kArrivedRad = 1e-3;    // nearer than this is there
+constexpr double kStandingRadS = 1e-3;     // slower than this is standing still
+constexpr double kForgottenAfter = 0.010;  // ticks without a command [s]
+constexpr double kArrivedRad = 1e-3;       // nearer than this is there
 
 bool standing(const ArmState& arm) { return arm.velocity.cwiseAbs().maxCoeff() < kStandingRadS; }
 
@@ -187,19 +188,21 @@ void Link::settle(Time now) {
   if (cfg_unanswered_) {
     return;
   }
-  if (leavesOut()) {
+  if (leavesOut(now)) {
     return;
   }
   sendVelocity(JointVector::Zero(), now);
   if (--settle_left_ <= 0) {
     limiter_.reset();
+    last_sent_ = now;
     enter(LinkState::kServoing, now);
   }
 }
 
 /// What is queued acts meanwhile, and the queue gets shorter.
-bool Link::leavesOut() {
+bool Link::leavesOut(Time now) {
   const bool left_out = backlog_.leaveOut(unanswered_);
+  last_sent_ = left_out ? now : last_sent_;
   report_.left_out += left_out ? 1 : 0;
   return left_out;
 }
@@ -211,9 +214,13 @@ void Link::servo(Time now) {
     enter(LinkState::kStopping, now);
     return;
   }
-  if (leavesOut()) {
+  if (leavesOut(now)) {
     return;
   }
+  if (now - last_sent_ > kForgottenAfter) {
+    limiter_.reset();  // the controller has zeroed what it was told last: from rest again
+  }
+  last_sent_ = now;
   const double age = now - target_.given;
   const JointVector wanted = heldShare(age, settings_.hold_s, settings_.ramp_s) * target_.velocity;
   const OperatingMode mode = report_.status.mode == PendantMode::kAutomatic

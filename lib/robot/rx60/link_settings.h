@@ -18,7 +18,7 @@ struct LinkSettings {
   double hold_s = 0.05;        ///< a target acts for so long: 2.5 vision periods of 20 ms
   double ramp_s = 0.02;        ///< then goes down to zero within this time
   double stop_after_s = 0.25;  ///< without a target the arm leaves velocity mode
-  double stall_s = 0.02;       ///< moving without feedback for longer is a fault
+  double stall_s = 0.05;       ///< moving without feedback for longer is a fault
   double idle_stall_s = 0.5;   ///< standing without feedback for longer is a fault
   double first_state_s = 3.0;  ///< from connecting to the first feedback and status; usual: 1.1
   double status_s = 1.0;       ///< between two STATUS messages; usual: 0.08

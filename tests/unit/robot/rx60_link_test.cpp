@@ -197,14 +197,32 @@ TEST(Rx60Link, ALostConnectionIsClosedAndOpenedAgainOnlyByRearm) {
   }
 }
 
-TEST(Rx60Link, SilenceWhileMovingIsAFaultWithinFivePeriods) {
+TEST(Rx60Link, SaysNothingToASilentControllerAndCallsItAFault) {
   ScriptedController controller;
   controller.connectAndServe();
-  controller.pass(0.019);
+  controller.link.setTarget(slow(), controller.now);
+  controller.pass(0.049);
   EXPECT_EQ(controller.link.state(), LinkState::kServoing);
+  EXPECT_THAT(controller.collect(), IsEmpty()) << "what is not renewed is zero after a tick";
   controller.pass(0.002);
   EXPECT_EQ(controller.link.state(), LinkState::kFault);
-  EXPECT_THAT(controller.link.report().last_fault, HasSubstr("no feedback for 21 ms"));
+  EXPECT_THAT(controller.link.report().last_fault, HasSubstr("no feedback for 51 ms"));
+}
+
+TEST(Rx60Link, BeginsFromRestAfterTicksWithoutACommand) {
+  ScriptedController controller;
+  controller.connectAndServe();
+  const JointVector fast = JointVector::Constant(0.5);
+  for (int k = 0; k < 100; ++k) {
+    controller.link.setTarget(fast, controller.now);
+    static_cast<void>(controller.feedback());
+  }
+  EXPECT_LT(off(controller.link.report().sent_velocity, fast), 1e-3);
+  controller.pass(0.012);
+  controller.link.setTarget(fast, controller.now);
+  const auto sent = velocitiesIn(controller.feedback());
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_LT(sent[0].cwiseAbs().maxCoeff(), 0.02) << "one step of the jerk limit";
 }
 
 TEST(Rx60Link, SilenceWhileStandingIsToleratedForHalfASecond) {
