@@ -17,6 +17,14 @@ fs::path rootOf(const fs::path& folder) {
   return fs::exists(folder / "mav0" / "cam0" / "data.csv") ? folder / "mav0" : folder;
 }
 
+int pixelsOf(double value, const std::string& where) {
+  constexpr double kMostPixels = 1e6;
+  if (!(value >= 1.0 && value <= kMostPixels)) {
+    throw InputError(where + ": expected a width and a height from 1 to 1000000");
+  }
+  return static_cast<int>(value);
+}
+
 /// One camera of the folder: its model and its place in the body.
 struct AslCamera {
   CameraModel model;
@@ -52,8 +60,8 @@ AslCamera readSensor(const fs::path& file) {
   const auto d =
       numbersOf(yaml["distortion_coefficients"], 4, name + ", key distortion_coefficients");
   const auto m = numbersOf(yaml["T_BS"]["data"], 16, name + ", key T_BS.data");
-  camera.model.width = static_cast<int>(size[0]);
-  camera.model.height = static_cast<int>(size[1]);
+  camera.model.width = pixelsOf(size[0], name + ", key resolution");
+  camera.model.height = pixelsOf(size[1], name + ", key resolution");
   camera.model.K << k[0], 0.0, k[2], 0.0, k[1], k[3], 0.0, 0.0, 1.0;
   camera.model.distortion = Eigen::Map<const Eigen::VectorXd>(d.data(), 4);
   for (int i = 0; i < 16; ++i) {

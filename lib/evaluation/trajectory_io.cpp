@@ -27,6 +27,9 @@ StampedPose poseOfLine(const std::string& line, const std::string& where) {
     throw InputError(where + ": expected time tx ty tz qx qy qz qw, found " +
                      std::to_string(v.size()) + " numbers");
   }
+  if (std::abs(v[0]) > 9e9) {  // the clock's nanoseconds end there
+    throw InputError(where + ": expected a time in seconds");
+  }
   const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
   if (std::abs(rotation.norm() - 1.0) > 0.01) {
     throw InputError(where + ": expected a quaternion of norm 1, found norm " +

@@ -1,4 +1,4 @@
-// Any bytes as a rig.yaml: a rig that is read is one that can be written and read again.
+// Any bytes as a rig.yaml: a rig that is read passes its own check.
 
 #include "rig/stereo_rig.h"
 
