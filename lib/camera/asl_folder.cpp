@@ -79,7 +79,8 @@ std::map<long long, fs::path> readStamps(const fs::path& camera) {
   std::map<long long, fs::path> stamps;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fs::path image = camera / "data" / table.text(row, file);
-    if (!fs::is_regular_file(image)) {
+    std::error_code failed;
+    if (!fs::is_regular_file(image, failed)) {
       throw InputError(table.where(row, file) + ": there is no file " + image.string());
     }
     stamps.emplace(table.integer(row, stamp), std::move(image));

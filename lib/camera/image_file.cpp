@@ -71,7 +71,8 @@ struct VideoReader::Held {
 };
 
 VideoReader::VideoReader(const fs::path& file) : held_(std::make_unique<Held>()) {
-  if (!fs::is_regular_file(file)) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) {
     throw InputError("there is no file " + file.string() + ": expected a video");
   }
   try {

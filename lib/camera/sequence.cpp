@@ -52,7 +52,8 @@ fs::path existing(const fs::path& base, const std::string& name, const std::stri
     return {};
   }
   fs::path path = base / name;
-  if (!fs::is_regular_file(path)) {
+  std::error_code failed;  // as for a name longer than file systems take
+  if (!fs::is_regular_file(path, failed)) {
     throw InputError(where + ": there is no file " + path.string());
   }
   return path;
@@ -196,7 +197,8 @@ Sequence openOwnFolder(const fs::path& folder) {
 }  // namespace
 
 Sequence openSequence(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed)) {
     throw InputError("there is no folder " + folder.string() + ": expected a sequence folder");
   }
   if (!fs::exists(folder / "sequence.yaml")) {

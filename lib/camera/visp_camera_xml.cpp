@@ -74,7 +74,8 @@ ImageSize agreedSize(const vpXmlParserCamera& parser, const fs::path& file, Imag
 }  // namespace
 
 StereoRig loadVispCamera(const fs::path& file, const std::string& name, ImageSize size) {
-  if (!fs::is_regular_file(file)) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) {
     throw InputError("there is no file " + file.string() + ": expected ViSP camera parameters");
   }
   vpXmlParserCamera parser;
