@@ -85,6 +85,13 @@ void print(const rx60::LinkReport& report) {
       1e3 * report.arrivals.period_s, 1e3 * report.arrivals.jitter_s,
       1e3 * report.arrivals.worst_gap_s, static_cast<long long>(report.arrivals.missed_cycles),
       static_cast<long long>(report.arrivals.feedbacks));
+  if (report.commands > 0) {
+    std::printf(
+        "             %lld velocities sent, the last one %.1f ms after it was wanted; %lld "
+        "feedbacks drained, %lld commands left out\n",
+        static_cast<long long>(report.commands), 1e3 * report.command_age_s,
+        static_cast<long long>(report.drained), static_cast<long long>(report.left_out));
+  }
   if (!report.last_fault.empty()) {
     std::printf("             last fault: %s\n", report.last_fault.c_str());
   }
@@ -167,9 +174,6 @@ void jog(const ArmArguments& arguments) {
   const rx60::LinkReport report = arm->report();
   arm->stop();
   print(report);
-  std::printf("%lld velocities sent, %lld feedbacks drained, %lld commands left out\n",
-              static_cast<long long>(report.commands), static_cast<long long>(report.drained),
-              static_cast<long long>(report.left_out));
 }
 
 void gripper(const ArmArguments& arguments) {
