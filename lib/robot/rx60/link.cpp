@@ -244,8 +244,8 @@ std::string Link::overdue(Time now) const {
 
 void Link::send(Channel channel, CommType comm, const Body& body) {
   if (out_end_ - out_begin_ == outgoing_.size()) {
-    open_ = false;  // nobody sends what is said here
-    wants_close_ = true;
+    open_ = false;
+    linkFault("nobody sends what the link says", report_.now);
     return;
   }
   outgoing_[out_end_++ % outgoing_.size()] = {channel, encode({comm, ReplyCode::kNone, body})};
