@@ -10,6 +10,10 @@ namespace ringhook {
 namespace {
 
 constexpr std::int64_t kTickNs = 4'000'000;
+// Within a tick the streamer's task comes before the receivers', and so do its messages: a client
+// reads why motion is not possible before it reads that a command was refused.
+constexpr std::array<Rx60Socket, kRx60Sockets.size()> kSendingOrder = {
+    Rx60Socket::kState, Rx60Socket::kMotion, Rx60Socket::kSystem, Rx60Socket::kIo};
 
 Time tickTime(std::int64_t number) { return Time::fromNanoseconds(number * kTickNs); }
 
@@ -117,7 +121,7 @@ void Rx60Server::runTick(Time clock) {
     on_tick_(now_);
   }
   controller_.tick(now_);
-  for (const Rx60Socket socket : kRx60Sockets) {
+  for (const Rx60Socket socket : kSendingOrder) {
     Wire& wire = at(socket);
     for (const rx60::Frame& frame : controller_.takeOutput(socket)) {
       wire.to_client.push(frame.bytes(), now_);
