@@ -76,8 +76,9 @@ const char* nameOf(rx60::PendantMode mode) {
 }
 
 void print(const rx60::LinkReport& report) {
-  std::printf("%-12s joints %s deg   %s deg/s\n", rx60::nameOf(report.state),
-              inDegrees(report.arm.position).c_str(), inDegrees(report.arm.velocity).c_str());
+  std::printf("%-12s host time %.3f s   joints %s deg   %s deg/s\n", rx60::nameOf(report.state),
+              report.now.seconds(), inDegrees(report.arm.position).c_str(),
+              inDegrees(report.arm.velocity).c_str());
   std::printf(
       "             %s, drives %s; period %.3f ms, jitter %.3f ms, longest gap %.1f ms, "
       "missed %lld of %lld\n",
