@@ -21,8 +21,9 @@ class Arm {
   /// Throws DeviceError when the link or the arm is lost.
   [[nodiscard]] virtual ArmState waitState() = 0;
 
-  /// Joint velocities [rad/s] from now on, until the next command or the end of the hold. Values that are not finite or exceed the
-  /// arm's speed limits are refused: the arm stops and DeviceError is thrown.
+  /// Joint velocities [rad/s] from now on, until the next command or the end of the hold. Values
+  /// that are not finite or exceed the arm's speed limits are refused: the arm stops and
+  /// DeviceError is thrown.
   virtual void commandVelocity(const JointVector& joint_velocity) = 0;
 
   /// Stands still at once and accepts no motion until rearm(). Never throws: it is the last thing

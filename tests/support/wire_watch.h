@@ -41,7 +41,7 @@ class WireWatch final : public rx60::LinkPort {
   Time patience_ = Time::fromSeconds(1e9);
   JointVector velocity_ = JointVector::Zero();      ///< the one before [rad/s]
   JointVector acceleration_ = JointVector::Zero();  ///< between the two before [rad/s^2]
-  Time last_;  ///< of the one before
+  Time last_;                                       ///< of the one before
   std::int64_t commands_ = 0;
   std::vector<std::string> violations_;
 };
