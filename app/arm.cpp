@@ -122,7 +122,7 @@ void confirm(const ArmArguments& arguments, const std::string& what) {
 template <class More>
 void follow(Rx60Arm& arm, double seconds, More more) {
   const Time begin = arm.waitState().time;
-  for (Time time = begin; time - begin < seconds && more(time - begin);) {
+  for (Time time = begin; time - begin < seconds && more();) {
     throwIfInterrupted();
     time = arm.waitState().time;
   }
@@ -130,11 +130,10 @@ void follow(Rx60Arm& arm, double seconds, More more) {
 
 void watch(const ArmArguments& arguments) {
   const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kState);
-  const rx60::TcpPort clock(arguments.address);
-  const Time begin = clock.now();
+  const Time begin = arm->report().now;
   for (int second = 0; second < arguments.seconds; ++second) {
     print(arm->report());
-    while (clock.now() - begin < second + 1) {
+    while (arm->report().now - begin < second + 1) {
       throwIfInterrupted();
       arm->awaitNews();
     }
@@ -156,7 +155,7 @@ void move(const ArmArguments& arguments) {
                          std::to_string(static_cast<int>(std::lround(100 * arguments.speed))) +
                          " % of its nominal speed.");
   arm->startMove(points);
-  follow(*arm, 3600.0, [&](double) { return arm->moving(); });
+  follow(*arm, 3600.0, [&] { return arm->moving(); });
   print(arm->report());
 }
 
@@ -167,7 +166,7 @@ void jog(const ArmArguments& arguments) {
                          inWords(arguments.speed_deg_s) + " deg/s for " +
                          inWords(arguments.seconds) + " s.");
   JointVector velocity = JointVector::Zero();
-  follow(*arm, arguments.seconds, [&](double) {
+  follow(*arm, arguments.seconds, [&] {
     velocity[arguments.joint - 1] = arguments.speed_deg_s * kDegree;
     arm->commandVelocity(velocity);
     return true;
@@ -180,7 +179,7 @@ void jog(const ArmArguments& arguments) {
 void gripper(const ArmArguments& arguments) {
   const std::unique_ptr<Rx60Arm> arm = connect(arguments, Rx60Arm::Needs::kState);
   arm->setGripper(arguments.gripper == "close");
-  follow(*arm, 100 * kPeriod, [](double) { return true; });  // a refusal would have come by then
+  follow(*arm, 100 * kPeriod, [] { return true; });  // a refusal would have come by then
   std::printf("output %d of module %d is set: gripper %s\n", arguments.gripper_pin,
               arguments.gripper_module, arguments.gripper == "close" ? "closed" : "open");
 }

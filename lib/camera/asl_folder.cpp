@@ -7,6 +7,7 @@
 
 #include "camera/csv_table.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -79,8 +80,7 @@ std::map<long long, fs::path> readStamps(const fs::path& camera) {
   std::map<long long, fs::path> stamps;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fs::path image = camera / "data" / table.text(row, file);
-    std::error_code failed;
-    if (!fs::is_regular_file(image, failed)) {
+    if (!isFile(image)) {
       throw InputError(table.where(row, file) + ": there is no file " + image.string());
     }
     stamps.emplace(table.integer(row, stamp), std::move(image));

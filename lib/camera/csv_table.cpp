@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -63,7 +64,7 @@ std::optional<double> numberFromText(const std::string& text) {
 
 CsvTable::CsvTable(const std::filesystem::path& path) : path_(path) {
   std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) {
+  if (!file || isFolder(path)) {
     throw InputError("cannot read " + path.string() + ": expected a comma-separated table");
   }
   std::string line;

@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -71,8 +72,7 @@ struct VideoReader::Held {
 };
 
 VideoReader::VideoReader(const fs::path& file) : held_(std::make_unique<Held>()) {
-  std::error_code failed;
-  if (!fs::is_regular_file(file, failed)) {
+  if (!isFile(file)) {
     throw InputError("there is no file " + file.string() + ": expected a video");
   }
   try {

@@ -9,6 +9,7 @@
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -153,7 +154,7 @@ std::vector<fs::path> filesMatching(const std::string& pattern) {
   glob_t found{};
   if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
     for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-      if (fs::is_regular_file(found.gl_pathv[i])) {
+      if (isFile(found.gl_pathv[i])) {
         files.emplace_back(found.gl_pathv[i]);
       }
     }

@@ -9,6 +9,7 @@
 #include "camera/asl_folder.h"
 #include "camera/csv_table.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -52,8 +53,7 @@ fs::path existing(const fs::path& base, const std::string& name, const std::stri
     return {};
   }
   fs::path path = base / name;
-  std::error_code failed;  // as for a name longer than file systems take
-  if (!fs::is_regular_file(path, failed)) {
+  if (!isFile(path)) {
     throw InputError(where + ": there is no file " + path.string());
   }
   return path;
@@ -197,8 +197,7 @@ Sequence openOwnFolder(const fs::path& folder) {
 }  // namespace
 
 Sequence openSequence(const fs::path& folder) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed)) {
+  if (!isFolder(folder)) {
     throw InputError("there is no folder " + folder.string() + ": expected a sequence folder");
   }
   if (!fs::exists(folder / "sequence.yaml")) {

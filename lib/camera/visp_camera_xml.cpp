@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -74,8 +75,7 @@ ImageSize agreedSize(const vpXmlParserCamera& parser, const fs::path& file, Imag
 }  // namespace
 
 StereoRig loadVispCamera(const fs::path& file, const std::string& name, ImageSize size) {
-  std::error_code failed;
-  if (!fs::is_regular_file(file, failed)) {
+  if (!isFile(file)) {
     throw InputError("there is no file " + file.string() + ": expected ViSP camera parameters");
   }
   vpXmlParserCamera parser;

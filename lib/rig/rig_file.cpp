@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "rig/stereo_rig.h"
 #include "rig/unknown_entries.h"
 
@@ -15,8 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string readText(const fs::path& path) {
-  std::error_code failed;
-  if (!fs::is_regular_file(path, failed)) {
+  if (!isFile(path)) {
     throw InputError(path.string() + ": no such rig file");
   }
   std::ifstream file(path, std::ios::binary);

@@ -14,6 +14,17 @@ double accelerationOfSum(double sum, double step) {
   return std::copysign((size + 0.5 * step * n * (n + 1.0)) / (n + 1.0), sum);
 }
 
+namespace {
+
+/// The acceleration nearest to the wanted one that jerk and acceleration permit.
+double permitted(double wanted, const JointRate& rate, const JointBounds& bounds) {
+  const double smooth = std::clamp(wanted, rate.acceleration - bounds.jerk_step,
+                                   rate.acceleration + bounds.jerk_step);
+  return std::clamp(smooth, -bounds.acceleration, bounds.acceleration);
+}
+
+}  // namespace
+
 JointRate stepTowards(const JointRate& rate, double target, double target_acceleration,
                       const JointBounds& bounds) {
   const auto sumTo = [&](double velocity) { return (velocity - rate.velocity) / bounds.period_s; };
@@ -23,17 +34,14 @@ JointRate stepTowards(const JointRate& rate, double target, double target_accele
       target_acceleration + accelerationOfSum(sumTo(target) - target_acceleration, d);
   const double kept = std::clamp(wanted, accelerationOfSum(sumTo(-bounds.velocity), d),
                                  accelerationOfSum(sumTo(bounds.velocity), d));
-  const double smooth = std::clamp(kept, rate.acceleration - d, rate.acceleration + d);
-  const double next = std::clamp(smooth, -bounds.acceleration, bounds.acceleration);
+  const double next = permitted(kept, rate, bounds);
   const double velocity = rate.velocity + next * bounds.period_s;
   return {std::clamp(velocity, -bounds.velocity, bounds.velocity), next};
 }
 
 JointRate brakingStep(const JointRate& rate, const JointBounds& bounds) {
-  const double d = bounds.jerk_step;
-  const double wanted = accelerationOfSum(-rate.velocity / bounds.period_s, d);
-  const double smooth = std::clamp(wanted, rate.acceleration - d, rate.acceleration + d);
-  const double next = std::clamp(smooth, -bounds.acceleration, bounds.acceleration);
+  const double wanted = accelerationOfSum(-rate.velocity / bounds.period_s, bounds.jerk_step);
+  const double next = permitted(wanted, rate, bounds);
   return {rate.velocity + next * bounds.period_s, next};
 }
 

@@ -9,8 +9,7 @@ namespace ringhook {
 namespace {
 
 constexpr int kBisections = 12;
-constexpr double kAim =
-    0.98;  // share of tool speed and singular speeds aimed at, not to graze them
+constexpr double kAim = 0.98;  // of tool speed and singular speeds, so as not to graze them
 constexpr double kBetweenEnds = 0.995;  // tool speed bound on the ends of a period, for all of it
 constexpr double kSame = 1e-9;          // [rad/s]
 

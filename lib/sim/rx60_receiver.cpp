@@ -26,21 +26,12 @@ void setInt32(std::vector<std::byte>& frame, std::size_t at, std::size_t value) 
 }
 
 /// Bytes of the body of a type that a client may send; 0 for one that the server does not know.
-std::size_t bodyBytes(std::int32_t type, bool velocity_addon) {
-  switch (static_cast<MessageType>(type)) {
-    case MessageType::kJointTrajPt:
-      return 52;
-    case MessageType::kSetDrivePower:
-      return 1;
-    case MessageType::kWriteSingleIo:
-      return 9;
-    case MessageType::kVelocityCfg:
-      return velocity_addon ? 68 : 0;
-    case MessageType::kVelocityCmd:
-      return velocity_addon ? 32 : 0;
-    default:
-      return 0;
-  }
+std::size_t bodyFromClient(std::int32_t type, bool velocity_addon) {
+  const auto is = [type](MessageType other) { return type == static_cast<std::int32_t>(other); };
+  const bool velocity = is(MessageType::kVelocityCfg) || is(MessageType::kVelocityCmd);
+  const bool known = is(MessageType::kJointTrajPt) || is(MessageType::kSetDrivePower) ||
+                     is(MessageType::kWriteSingleIo) || (velocity && velocity_addon);
+  return known ? rx60::bodyBytes(type).value_or(0) : 0;
 }
 
 }  // namespace
@@ -64,7 +55,7 @@ std::size_t Rx60Receiver::partBytes() const {
     case Part::kBody:
       break;
   }
-  return bodyBytes(int32At(frame_, kTypeAt), velocity_addon_);
+  return bodyFromClient(int32At(frame_, kTypeAt), velocity_addon_);
 }
 
 bool Rx60Receiver::takePart() {

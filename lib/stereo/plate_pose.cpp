@@ -23,6 +23,7 @@ using Eigen::Vector3d;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 
+constexpr double kRank = 1e-12;     // of the normal equations, below which points lie on a line
 constexpr double kFlatness = 0.02;  // distance from the plane over extent
 
 /// Plane of model points, refused where they are not flat.
@@ -107,8 +108,9 @@ Outcome<Matrix3d> homography(const std::vector<Vector2d>& plane,
     information += rows.transpose().lazyProduct(rows);
     right += rows.transpose() * q.head<2>();
   }
-  const Vector8 h = information.llt().solve(right);
-  if (!h.allFinite()) {
+  const Eigen::LLT<Matrix8> normal(information);
+  const Vector8 h = normal.solve(right);
+  if (normal.info() != Eigen::Success || normal.rcond() < kRank || !h.allFinite()) {
     return Refusal{"corners seen on one line"};
   }
   Matrix3d H;

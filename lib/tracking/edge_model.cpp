@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -15,10 +16,8 @@ constexpr int kDeepestLoad = 8;
 constexpr std::size_t kMostEntries = 100000;
 
 std::string readText(const std::filesystem::path& path) {
-  std::error_code failed;
   // A folder or a device would open, but has no end up to which it could be read.
-  const bool regular = std::filesystem::is_regular_file(path, failed);
-  std::ifstream file(regular ? path : std::filesystem::path());
+  std::ifstream file(isFile(path) ? path : std::filesystem::path());
   if (!file) {
     throw InputError(path.string() + ": cannot read this edge model (.cao expected)");
   }

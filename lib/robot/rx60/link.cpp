@@ -109,6 +109,7 @@ void Link::pass(Time now) {
       linkFault(late, now);
     }
   }
+  report_.arm.motion_possible = report_.armed && obstacleIn(report_.status).empty();
   report_.arrivals = clock_.statistics();
 }
 

@@ -112,7 +112,6 @@ void Link::takeStatus(const RobotStatus& status, Time now) {
   } else if (report_.state != LinkState::kFault || first) {
     fault(obstacle, now);
   }
-  report_.arm.motion_possible = report_.armed && obstacle.empty();
 }
 
 void Link::takeMotionReply(const Message& message, Time now) {
@@ -169,7 +168,6 @@ void Link::answer(Time now) {
     case LinkState::kFault:
       break;
   }
-  report_.arm.motion_possible = report_.armed && obstacleIn(report_.status).empty();
 }
 
 void Link::configure(Time now) {
@@ -185,10 +183,7 @@ void Link::configure(Time now) {
 
 void Link::settle(Time now) {
   // The reply comes before the mode is in force: zeros until then.
-  if (cfg_unanswered_) {
-    return;
-  }
-  if (leavesOut(now)) {
+  if (cfg_unanswered_ || leavesOut(now)) {
     return;
   }
   sendVelocity(JointVector::Zero(), now);

@@ -8,29 +8,6 @@
 namespace ringhook::rx60 {
 namespace {
 
-/// Bytes of a type's body; nothing for a type that is not spoken here.
-std::optional<std::size_t> bodyBytes(std::int32_t type) {
-  switch (static_cast<MessageType>(type)) {
-    case MessageType::kJointPosition:
-      return 44;
-    case MessageType::kJointTrajPt:
-      return 52;
-    case MessageType::kStatus:
-      return 28;
-    case MessageType::kJointFeedback:
-      return 132;
-    case MessageType::kSetDrivePower:
-      return 1;
-    case MessageType::kWriteSingleIo:
-      return 9;
-    case MessageType::kVelocityCfg:
-      return 68;
-    case MessageType::kVelocityCmd:
-      return 32;
-  }
-  return std::nullopt;
-}
-
 /// Puts values one after the other, little-endian.
 class Writer {
  public:
@@ -174,6 +151,28 @@ Prefix readPrefix(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> bodyBytes(std::int32_t type) {
+  switch (static_cast<MessageType>(type)) {
+    case MessageType::kJointPosition:
+      return 44;
+    case MessageType::kJointTrajPt:
+      return 52;
+    case MessageType::kStatus:
+      return 28;
+    case MessageType::kJointFeedback:
+      return 132;
+    case MessageType::kSetDrivePower:
+      return 1;
+    case MessageType::kWriteSingleIo:
+      return 9;
+    case MessageType::kVelocityCfg:
+      return 68;
+    case MessageType::kVelocityCmd:
+      return 32;
+  }
+  return std::nullopt;
+}
 
 MessageType typeOf(const Body& body) {
   static constexpr std::array<MessageType, std::variant_size_v<Body>> kTypes = {

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -133,6 +134,9 @@ inline constexpr std::size_t kHeaderBytes = 12;  ///< type, comm, reply
 inline constexpr std::size_t kMaxFrameBytes = kLengthBytes + kHeaderBytes + 132;
 
 MessageType typeOf(const Body& body);
+
+/// Bytes of the body of a type as it stands in a header; nothing for one that is not spoken here.
+std::optional<std::size_t> bodyBytes(std::int32_t type);
 
 /// "VELOCITY_CMD" and the like.
 const char* nameOf(MessageType type);

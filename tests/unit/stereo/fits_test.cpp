@@ -112,5 +112,15 @@ TEST(PlanarStartPose, RefusesSolidAndTooFewCorners) {
   EXPECT_EQ(planarStartPose(view.cameras).reason(), "too few corners");
 }
 
+TEST(PlanarStartPose, RefusesAPlateSeenEdgeOn) {
+  std::mt19937 random(9);
+  HookView view = test::seenPlate(test::pairOfViews(0.4, 0.1526), test::samplePose(), 0.0, random);
+  view.cameras.pop_back();
+  for (CornerFeature& corner : view.cameras[0].corners) {
+    corner.pixel.y() = 300.0 + 0.25 * corner.pixel.x();
+  }
+  EXPECT_EQ(planarStartPose(view.cameras).reason(), "corners seen on one line");
+}
+
 }  // namespace
 }  // namespace ringhook
