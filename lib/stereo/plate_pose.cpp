@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 
-constexpr double kRank = 1e-12;     // of the normal equations, below which points lie on a line
+constexpr double kSingular = 1e-6;  // determinant between normalised points, a line's is zero
 constexpr double kFlatness = 0.02;  // distance from the plane over extent
 
 /// Plane of model points, refused where they are not flat.
@@ -110,11 +110,11 @@ Outcome<Matrix3d> homography(const std::vector<Vector2d>& plane,
   }
   const Eigen::LLT<Matrix8> normal(information);
   const Vector8 h = normal.solve(right);
-  if (normal.info() != Eigen::Success || normal.rcond() < kRank || !h.allFinite()) {
-    return Refusal{"corners seen on one line"};
-  }
   Matrix3d H;
   H << h.head<3>().transpose(), h.segment<3>(3).transpose(), h.tail<2>().transpose(), 1.0;
+  if (normal.info() != Eigen::Success || !(std::abs(H.determinant()) > kSingular)) {
+    return Refusal{"corners seen on one line"};
+  }
   return Matrix3d(S.inverse() * H * T);
 }
 
