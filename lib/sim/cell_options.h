@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "core/joints.h"
+#include "sim/scene_options.h"
 
 namespace ringhook {
 
@@ -89,6 +90,7 @@ struct CellOptions {
   RingOptions ring;
   ArmOptions arm;
   GripperOptions gripper;
+  SceneOptions scene;
 };
 
 }  // namespace ringhook

@@ -8,6 +8,8 @@ namespace ringhook {
 namespace {
 
 constexpr std::uint64_t kTableSize = 1U << 16U;
+constexpr std::uint64_t kLongestRow = 8192;
+constexpr double kFillTime = 0.0005;  // in which brightness 255 fills the well [s]
 
 /// Bits of one number spread over all (splitmix64, Steele, Lea, Flood, OOPSLA 2014).
 std::uint64_t mix(std::uint64_t z) {
@@ -19,7 +21,8 @@ std::uint64_t mix(std::uint64_t z) {
 
 double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 11U) + 0.5) * 0x1p-53; }
 
-/// Standard normal values by the method of Box and Muller (1958).
+/// Standard normal values by the method of Box and Muller (1958); the first ones follow once more
+/// at the end, so that a row may start anywhere.
 std::vector<float> normalTable() {
   std::vector<float> table(kTableSize);
   for (std::uint64_t i = 0; i < kTableSize; i += 2) {
@@ -28,26 +31,14 @@ std::vector<float> normalTable() {
     table[i] = static_cast<float>(radius * std::cos(angle));
     table[i + 1] = static_cast<float>(radius * std::sin(angle));
   }
+  table.insert(table.end(), table.begin(), table.begin() + kLongestRow);
   return table;
 }
 
 }  // namespace
 
 SensorNoise::SensorNoise(const SensorOptions& options)
-    : options_(options), normals_(normalTable()) {
-  for (std::size_t grey = 0; grey < sigma_.size(); ++grey) {
-    sigma_[grey] = static_cast<float>(sigma(static_cast<double>(grey)));
-  }
-}
-
-double SensorNoise::sigma(double grey) const {
-  if (!options_.noise) {
-    return 0.0;
-  }
-  const double electrons = grey / 255.0 * options_.full_well_e;
-  const double variance = electrons + options_.read_noise_e * options_.read_noise_e;
-  return 255.0 / options_.full_well_e * std::sqrt(variance);
-}
+    : options_(options), normals_(normalTable()) {}
 
 void SensorNoise::expose(const ExposureKey& key, int x0, int y, const float* brightness, int count,
                          std::uint8_t* grey) const {
@@ -55,12 +46,19 @@ void SensorNoise::expose(const ExposureKey& key, int x0, int y, const float* bri
       2U * static_cast<std::uint64_t>(y) + static_cast<std::uint64_t>(key.side);
   const std::uint64_t start =
       mix(mix(mix(key.seed) ^ key.frame) ^ place) + static_cast<std::uint64_t>(x0);
-  const auto gain = static_cast<float>(options_.gain);
+  const float* normals = &normals_[start % kTableSize];
+  const double well = options_.full_well_e;
+  const auto electrons = static_cast<float>(well / 255.0 * options_.exposure_s / kFillTime);
+  const auto full = static_cast<float>(well);
+  const auto read2 = static_cast<float>(options_.read_noise_e * options_.read_noise_e);
+  const float noise = options_.noise ? 1.0F : 0.0F;
+  const auto amplifier = static_cast<float>(options_.gain * 255.0 / well);
+  const auto black = static_cast<float>(options_.black_level + 0.5);
   for (int i = 0; i < count; ++i) {
-    const float light = std::min(255.0F, gain * brightness[i]);
-    const float normal = normals_[(start + static_cast<std::uint64_t>(i)) % kTableSize];
-    const float value = light + sigma_[static_cast<std::size_t>(light)] * normal;
-    grey[i] = static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
+    const float e = std::min(full, electrons * brightness[i]);
+    const float collected = e + noise * std::sqrt(e + read2) * normals[i];
+    const float value = std::min(255.0F, std::max(0.0F, amplifier * collected + black));
+    grey[i] = static_cast<std::uint8_t>(value);
   }
 }
 

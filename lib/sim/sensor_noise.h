@@ -1,23 +1,28 @@
 #pragma once
 
 /// \file
-/// What the sensor makes of the light: gain, shot noise and read noise, 8 bits. Photon transfer
-/// (EMVA Standard 1288, release 3.1, section 2): with e electrons collected the variance is
-/// e + read_noise^2; full scale (255) stands for the full well.
+/// What the sensor makes of the light: exposure, shot noise and read noise, gain, 8 bits. Photon
+/// transfer (EMVA Standard 1288, release 3.1, section 2): of e electrons collected (at most the
+/// full well) the variance is e + read_noise^2; the grey value is K (e + noise) + black level with
+/// K = gain * 255 / full_well_e. So variance over mean is a line of slope K, and the offset is
+/// K^2 read_noise^2 + 1/12 for the rounding to whole grey values. Brightness 255 fills the well in
+/// the default exposure of 0.5 ms.
 /// Each pixel's noise depends on seed, frame, side and its place in the full image alone: a window
 /// sees exactly the noise that the full image has there.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace ringhook {
 
 struct SensorOptions {
-  double gain = 1.0;             ///< on the drawn brightness
-  double full_well_e = 10000.0;  ///< electrons at grey value 255
+  /// Time during which the sensor collects light; moving things smear by their motion in it [s].
+  double exposure_s = 0.0005;
+  double gain = 1.0;             ///< amplifier, on collected electrons: brightens light and noise
+  double full_well_e = 10000.0;  ///< electrons at grey value 255 with gain 1; more are lost
   double read_noise_e = 10.0;    ///< standard deviation [electrons]
-  bool noise = true;             ///< false: gain and rounding only
+  double black_level = 0.0;      ///< added to every grey value [grey values]
+  bool noise = true;             ///< false: no shot and read noise
 };
 
 /// Which exposure a row of pixels belongs to.
@@ -31,18 +36,16 @@ class SensorNoise {
  public:
   explicit SensorNoise(const SensorOptions& options);
 
-  /// Grey values from brightness (255 = full scale before gain) of pixels x0 .. x0 + count - 1 of
-  /// row y of the full image.
+  /// Grey values from brightness (255 = full well in 0.5 ms) of pixels x0 .. x0 + count - 1 of row
+  /// y of the full image; count is at most 8192.
   void expose(const ExposureKey& key, int x0, int y, const float* brightness, int count,
               std::uint8_t* grey) const;
 
-  /// Standard deviation of the noise at a grey value [grey values].
-  [[nodiscard]] double sigma(double grey) const;
+  [[nodiscard]] const SensorOptions& options() const { return options_; }
 
  private:
   SensorOptions options_;
-  std::array<float, 256> sigma_{};  // by grey value
-  std::vector<float> normals_;      // standard normal values
+  std::vector<float> normals_;  // standard normal values
 };
 
 }  // namespace ringhook

@@ -67,7 +67,7 @@ std::vector<std::uint8_t> exposed(const SensorNoise& sensor, const ExposureKey& 
 }
 
 TEST(SensorNoise, HasTheMeanAndVarianceOfPhotonTransfer) {
-  const SensorNoise sensor({1.0, 10000.0, 10.0, true});
+  const SensorNoise sensor({});
   for (const float level : {20.0F, 100.0F, 200.0F}) {
     double sum = 0.0;
     double squares = 0.0;
@@ -105,7 +105,7 @@ TEST(SensorNoise, DiffersBySeedFrameSideAndRow) {
 }
 
 TEST(SensorNoise, SwitchedOffOnlyScalesRoundsAndClips) {
-  const SensorNoise sensor({2.0, 10000.0, 10.0, false});
+  const SensorNoise sensor({.gain = 2.0, .noise = false});
   EXPECT_EQ(exposed(sensor, {1, 1, 0}, 0, 0, 60.3F, 1).front(), 121);
   EXPECT_EQ(exposed(sensor, {1, 1, 0}, 0, 0, 200.0F, 1).front(), 255);
 }
