@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "cycle/servo_loop.h"
+#include "evaluation/truth_log.h"
 #include "sim/nominal_rig.h"
 #include "sim/scenario.h"
 #include "sim/sim_arm.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 /// Hooks that one simulated belt carries; a longer job goes on with a fresh belt.
 constexpr int kHooksPerBelt = 6;
+constexpr double kTruthPeriod = 0.01;  // [s]
 
 fs::path scenarioFile(const CellConfig& cell, const std::string& name) {
   if (name.empty()) {
@@ -93,7 +95,10 @@ class Belt {
         witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
                  [this](const AttemptTruth& truth) { picture(truth); }),
         first_(first),
-        hooks_(hooks) {}
+        hooks_(hooks),
+        truth_log_(truthFolder(job, first), world_, true_rig_) {
+    world_.every(kTruthPeriod, 0.0, [this](Time) { truth_log_.sample(); });
+  }
 
   void run(const std::atomic<bool>& stop, const ServoProgress& progress,
            const AttemptDone& attempt_done, ServoReport& report) {
@@ -108,6 +113,7 @@ class Belt {
       report.attempts.push_back(attempt);
       attempt_done(i, attempt);
     }
+    truth_log_.commit();
   }
 
   [[nodiscard]] const LoopStatistics& statistics() const { return witness_.statistics(); }
@@ -119,6 +125,12 @@ class Belt {
     options.hook.count = hooks;
     options.ring.count = hooks;
     return options;
+  }
+
+  /// Each belt begins at time zero, so each has its own: truth, truth-2, ...
+  static fs::path truthFolder(const ServoJob& job, int first) {
+    const int belt = 1 + first / kHooksPerBelt;
+    return job.out / (belt == 1 ? "truth" : "truth-" + std::to_string(belt));
   }
 
   static SimCameraOptions cameraOptions(const CellConfig& cell) {
@@ -166,6 +178,7 @@ class Belt {
   ServoReport* report_ = nullptr;
   int first_;
   int hooks_;
+  TruthLog truth_log_;  ///< last: a belt that cannot be built leaves no files
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "sim/cell_forces.h"
 #include "sim/cell_model.h"
 #include "sim/drives.h"
 
@@ -127,49 +128,6 @@ void holdMagazine(CellState& cell) {
   }
 }
 
-/// Adds up this step's contact forces per ring, before the next step's contacts replace them.
-void recordForces(CellState& cell) {
-  for (RingSlot& ring : cell.rings) {
-    ring.hook_force = 0.0;
-    ring.gripper_force = 0.0;
-  }
-  for (int i = 0; i < cell.data->ncon; ++i) {
-    const mjContact& contact = cell.data->contact[i];
-    mjtNum wrench[6];
-    mj_contactForce(cell.model.get(), cell.data.get(), i, wrench);
-    const int geoms[2] = {contact.geom1, contact.geom2};
-    for (int side = 0; side < 2; ++side) {
-      const int ring = cell.ring_of_geom[static_cast<std::size_t>(geoms[side])];
-      const GeomOwner other = cell.owner[static_cast<std::size_t>(geoms[1 - side])];
-      if (ring >= 0 && other == GeomOwner::hook) {
-        cell.rings[static_cast<std::size_t>(ring)].hook_force += std::abs(wrench[0]);
-      } else if (ring >= 0 && other == GeomOwner::tool) {
-        cell.rings[static_cast<std::size_t>(ring)].gripper_force += std::abs(wrench[0]);
-      }
-    }
-  }
-  for (RingSlot& ring : cell.rings) {
-    if (ring.place == RingPlace::gripper) {
-      ring.peak_force_in_grip = std::max(ring.peak_force_in_grip, ring.hook_force);
-    }
-  }
-}
-
-/// Force [N] that the weld puts on the held ring; a weld's first three rows are its translation.
-void recordGrip(CellState& cell) {
-  cell.grip_force = 0.0;
-  if (cell.held_ring < 0) {
-    return;
-  }
-  const int weld = cell.rings[static_cast<std::size_t>(cell.held_ring)].grip;
-  for (int row = 0; row < cell.data->nefc; ++row) {
-    if (cell.data->efc_type[row] == mjCNSTR_EQUALITY && cell.data->efc_id[row] == weld) {
-      cell.grip_force = mju_norm3(cell.data->efc_force + row);
-      return;
-    }
-  }
-}
-
 /// Brings everything that depends on positions and velocities up to date.
 void refresh(CellState& cell) { mj_step1(cell.model.get(), cell.data.get()); }
 
@@ -216,7 +174,6 @@ void stepCell(CellState& cell) {
   mj_step2(m, d);
   ++cell.steps;
   recordForces(cell);
-  recordGrip(cell);
   holdHooks(cell);
   holdMagazine(cell);
   refresh(cell);

@@ -33,6 +33,17 @@ struct RingSlot {
   double hook_force = 0.0;          ///< sum of normal contact forces with hooks, last step [N]
   double peak_force_in_grip = 0.0;  ///< largest of those while gripped [N]
   double gripper_force = 0.0;       ///< sum of normal contact forces with the tool, last step [N]
+  double hook_impulse = 0.0;        ///< time integral of hook_force since time zero [N s]
+  double gripper_impulse = 0.0;     ///< likewise of gripper_force [N s]
+};
+
+/// A contact that pressed during the last step.
+struct ContactSlot {
+  int body[2] = {0, 0};
+  Eigen::Vector3d point_f;      ///< [m]
+  Eigen::Vector3d normal_f;     ///< unit, from body[0] to body[1]
+  double normal_force = 0.0;    ///< [N]
+  double friction_force = 0.0;  ///< along the surface [N]
 };
 
 enum class GeomOwner { none, hook, tool, ring };
@@ -44,9 +55,10 @@ struct CellState {
   DataPtr data;
   std::vector<HookSlot> hooks;
   std::vector<RingSlot> rings;
-  std::vector<GeomOwner> owner;   ///< of each geom
-  std::vector<int> ring_of_geom;  ///< index of the ring, or -1
-  int arm_dof[6] = {};            ///< also their qpos on this model: see makeCellState
+  std::vector<GeomOwner> owner;       ///< of each geom
+  std::vector<int> ring_of_geom;      ///< index of the ring, or -1
+  std::vector<ContactSlot> contacts;  ///< of the last step
+  int arm_dof[6] = {};                ///< also their qpos on this model: see makeCellState
   int arm_qpos[6] = {};
   int belt_dof = 0;
   int belt_qpos = 0;

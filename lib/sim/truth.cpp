@@ -54,6 +54,8 @@ RingTruth ringTruth(const CellState& cell, const RingSlot& slot,
   ring.held = slot.place == RingPlace::gripper;
   ring.hook_force = slot.hook_force;
   ring.peak_force_in_grip = slot.peak_force_in_grip;
+  ring.hook_impulse = slot.hook_impulse;
+  ring.gripper_impulse = slot.gripper_impulse;
   ring.touching_gripper = slot.gripper_force > 0.0;
   ring.linked_hook = linkedHook(hooks, ring.fMr, cell.options.ring.radius());
   if (ring.linked_hook >= 0) {
@@ -63,6 +65,31 @@ RingTruth ringTruth(const CellState& cell, const RingSlot& slot,
                  !ring.touching_gripper && ring.fMr.translation().z() > kFloorClearance &&
                  ring.speed_on_hook < kSlow;
   return ring;
+}
+
+ContactTruth contactTruth(const CellState& cell, const ContactSlot& slot) {
+  ContactTruth contact;
+  contact.body_a = mj_id2name(cell.model.get(), mjOBJ_BODY, slot.body[0]);
+  contact.body_b = mj_id2name(cell.model.get(), mjOBJ_BODY, slot.body[1]);
+  contact.point_f = slot.point_f;
+  contact.normal_f = slot.normal_f;
+  contact.normal_force = slot.normal_force;
+  contact.friction_force = slot.friction_force;
+  return contact;
+}
+
+void addMachines(const CellState& cell, CellTruth& all) {
+  all.belt_travel = cell.data->qpos[cell.belt_qpos];
+  all.belt_speed = cell.data->qvel[cell.belt_dof];
+  for (int i = 0; i < 6; ++i) {
+    all.joints[i] = cell.data->qpos[cell.arm_qpos[i]];
+  }
+  all.reported_joints = all.joints - cell.draw.zero_error;
+  all.fMe = bodyPose(cell, cell.flange_body);
+  all.fMr = all.fMe * gripPose(cell.options);
+  all.gripper_closed = cell.gripper_closed;
+  all.held_ring = cell.held_ring;
+  all.grip_force = cell.grip_force;
 }
 
 }  // namespace
@@ -77,10 +104,10 @@ CellTruth truth(const CellWorld& world) {
   for (const RingSlot& slot : cell.rings) {
     all.rings.push_back(ringTruth(cell, slot, all.hooks));
   }
-  all.fMe = bodyPose(cell, cell.flange_body);
-  all.fMr = all.fMe * gripPose(cell.options);
-  all.held_ring = cell.held_ring;
-  all.grip_force = cell.grip_force;
+  for (const ContactSlot& slot : cell.contacts) {
+    all.contacts.push_back(contactTruth(cell, slot));
+  }
+  addMachines(cell, all);
   return all;
 }
 

@@ -8,8 +8,10 @@
 /// What is really the case in the simulated cell. Only tests, evaluation and app may know: the
 /// macro above comes with the target ringhook::truth, which the loop's stages do not link.
 
+#include <string>
 #include <vector>
 
+#include "core/joints.h"
 #include "core/pose.h"
 #include "core/time.h"
 
@@ -34,16 +36,34 @@ struct RingTruth {
   int linked_hook = -1;             ///< hook whose bar passes through the ring's disk, or -1
   double hook_force = 0.0;          ///< normal contact forces with hooks, now, summed [N]
   double peak_force_in_grip = 0.0;  ///< the largest hook_force while it was gripped [N]
+  double hook_impulse = 0.0;        ///< time integral of hook_force since time zero [N s]
+  double gripper_impulse = 0.0;     ///< likewise of the forces with jaws, palm or arm [N s]
   bool touching_gripper = false;    ///< contact with jaws, palm or arm
   double speed_on_hook = 0.0;       ///< of the ring's centre relative to the linked hook [m/s]
   bool hanging = false;             ///< linked, loose, clear of the gripper, above the floor and
                                     ///< slower than 0.3 m/s relative to its hook
 };
 
+/// A contact that pressed during the last physics step.
+struct ContactTruth {
+  std::string body_a;           ///< a body of sim/cell_model.h; world is the floor
+  std::string body_b;           ///< likewise
+  Eigen::Vector3d point_f;      ///< where [m]
+  Eigen::Vector3d normal_f;     ///< unit, from a to b
+  double normal_force = 0.0;    ///< [N]
+  double friction_force = 0.0;  ///< along the surface [N]
+};
+
 struct CellTruth {
   Time time;
   std::vector<HookTruth> hooks;  ///< most downstream first
   std::vector<RingTruth> rings;
+  std::vector<ContactTruth> contacts;
+  double belt_travel = 0.0;     ///< since time zero, along +y_f [m]
+  double belt_speed = 0.0;      ///< [m/s]
+  JointVector joints;           ///< as they really stand [rad]
+  JointVector reported_joints;  ///< as the encoders say, off by the zero errors [rad]
+  bool gripper_closed = false;
   Pose fMe;                 ///< flange
   Pose fMr;                 ///< where the gripper holds a ring, whether it does or not
   int held_ring = -1;       ///< index, or -1
