@@ -1,0 +1,365 @@
+#include "camera/gige_camera.h"
+
+#include <arpa/inet.h>
+#include <arv.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+
+namespace ringhook {
+namespace {
+
+constexpr std::uint16_t kControlPort = 3956;  // GVCP, registered with IANA
+
+template <class T>
+struct Unref {
+  void operator()(T* object) const { g_object_unref(object); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Unref<T>>;
+
+/// What Aravis says went wrong; to be passed where it takes a GError**, then looked at once.
+class ArvError {
+ public:
+  explicit ArvError(const std::string& device) : device_(device) {}
+  ~ArvError() { g_clear_error(&error_); }
+  ArvError(const ArvError&) = delete;
+  ArvError& operator=(const ArvError&) = delete;
+
+  GError** out() {
+    g_clear_error(&error_);
+    return &error_;
+  }
+  /// Throws if the last call failed.
+  void require(const std::string& what) {
+    if (error_ != nullptr) {
+      throw DeviceError("camera " + device_ + ": " + what + ": " + error_->message);
+    }
+  }
+  [[nodiscard]] bool failed() const { return error_ != nullptr; }
+
+ private:
+  const std::string& device_;
+  GError* error_ = nullptr;
+};
+
+bool isAddress(const std::string& text) {
+  in_addr address{};
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+/// This host's address on the way to `device`, as the routing table has it: a datagram socket is
+/// connected and asked, nothing is sent.
+std::string localAddressTowards(const std::string& device) {
+  sockaddr_in remote{};
+  remote.sin_family = AF_INET;
+  remote.sin_port = htons(kControlPort);
+  inet_pton(AF_INET, device.c_str(), &remote.sin_addr);
+  const int socket_number = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in local{};
+  socklen_t size = sizeof local;
+  const bool found =
+      socket_number >= 0 &&
+      connect(socket_number, reinterpret_cast<const sockaddr*>(&remote), sizeof remote) == 0 &&
+      getsockname(socket_number, reinterpret_cast<sockaddr*>(&local), &size) == 0;
+  if (socket_number >= 0) {
+    close(socket_number);
+  }
+  if (!found) {
+    throw DeviceError("camera " + device + ": this host has no way to that address");
+  }
+  char text[INET_ADDRSTRLEN] = {};
+  inet_ntop(AF_INET, &local.sin_addr, text, sizeof text);
+  return text;
+}
+
+Owned<ArvDevice> openDevice(const std::string& name) {
+  ArvError error(name);
+  if (!isAddress(name)) {
+    arv_update_device_list();
+    Owned<ArvDevice> device(arv_open_device(name.c_str(), error.out()));
+    error.require("cannot be opened by its serial number");
+    if (!device) {
+      throw DeviceError("camera " + name + ": no camera with this serial number answers");
+    }
+    return device;
+  }
+  const Owned<GInetAddress> here(g_inet_address_new_from_string(localAddressTowards(name).c_str()));
+  const Owned<GInetAddress> there(g_inet_address_new_from_string(name.c_str()));
+  Owned<ArvDevice> device(arv_gv_device_new(here.get(), there.get(), error.out()));
+  error.require("cannot be opened");
+  return device;
+}
+
+std::int64_t steadyMinusReal_ns() {
+  using std::chrono::duration_cast;
+  using std::chrono::nanoseconds;
+  const auto steady = std::chrono::steady_clock::now().time_since_epoch();
+  const auto real = std::chrono::system_clock::now().time_since_epoch();
+  return duration_cast<nanoseconds>(steady).count() - duration_cast<nanoseconds>(real).count();
+}
+
+}  // namespace
+
+struct GigeCamera::Impl {
+  explicit Impl(const GigeCameraOptions& o);
+  ~Impl();
+
+  void readLimits();
+  void setUp();
+  void openStream();
+  GigeImage imageOf(ArvBuffer* buffer);
+  static void onControlLost(ArvDevice*, gpointer impl) {
+    static_cast<Impl*>(impl)->control_lost = true;
+  }
+
+  GigeCameraOptions options;
+  Owned<ArvDevice> device;
+  Owned<ArvCamera> camera;
+  Owned<ArvStream> stream;
+  RegionLimits limits;
+  Window region;
+  double exposure_s = 0.0;
+  bool streaming = false;
+  gulong control_signal = 0;
+  std::atomic<bool> control_lost = false;
+  std::atomic<std::int64_t> images = 0;
+  std::atomic<std::int64_t> broken = 0;
+};
+
+GigeCamera::Impl::Impl(const GigeCameraOptions& o) : options(o), device(openDevice(o.device)) {
+  ArvError error(options.device);
+  camera.reset(arv_camera_new_with_device(device.get(), error.out()));
+  error.require("is no camera");
+  if (!arv_gv_device_is_controller(ARV_GV_DEVICE(device.get()))) {
+    throw DeviceError("camera " + options.device + ": another program controls it");
+  }
+  control_signal =
+      g_signal_connect(device.get(), "control-lost", G_CALLBACK(&Impl::onControlLost), this);
+  readLimits();
+  setUp();
+  openStream();
+}
+
+GigeCamera::Impl::~Impl() {
+  if (streaming) {
+    arv_camera_stop_acquisition(camera.get(), nullptr);
+  }
+  g_signal_handler_disconnect(device.get(), control_signal);
+}
+
+void GigeCamera::Impl::readLimits() {
+  ArvError error(options.device);
+  ArvCamera* c = camera.get();
+  arv_camera_get_sensor_size(c, &limits.sensor_width, &limits.sensor_height, error.out());
+  error.require("does not tell its sensor's size");
+  int largest = 0;
+  arv_camera_get_width_bounds(c, &limits.x.smallest, &largest, error.out());
+  error.require("does not tell its smallest width");
+  arv_camera_get_height_bounds(c, &limits.y.smallest, &largest, error.out());
+  error.require("does not tell its smallest height");
+  const auto step = [&](gint (*get)(ArvCamera*, GError**)) {
+    const int value = get(c, error.out());
+    return error.failed() || value < 1 ? 1 : value;
+  };
+  limits.x.size = step(&arv_camera_get_width_increment);
+  limits.y.size = step(&arv_camera_get_height_increment);
+  limits.x.offset = step(&arv_camera_get_x_offset_increment);
+  limits.y.offset = step(&arv_camera_get_y_offset_increment);
+}
+
+void GigeCamera::Impl::setUp() {
+  ArvError error(options.device);
+  ArvCamera* c = camera.get();
+  arv_camera_set_pixel_format(c, ARV_PIXEL_FORMAT_MONO_8, error.out());
+  error.require("refuses grey images of 8 bits (PixelFormat Mono8)");
+  arv_camera_set_acquisition_mode(c, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
+  error.require("refuses to run continuously (AcquisitionMode)");
+  if (arv_camera_is_exposure_auto_available(c, nullptr)) {
+    arv_camera_set_exposure_time_auto(c, ARV_AUTO_OFF, error.out());
+  }
+  arv_camera_set_exposure_time(c, options.exposure_s * 1e6, error.out());
+  error.require("refuses an exposure of " + std::to_string(options.exposure_s * 1e6) + " us");
+  exposure_s = arv_camera_get_exposure_time(c, error.out()) * 1e-6;
+  error.require("does not tell its exposure time");
+  if (options.gain) {
+    arv_camera_set_gain(c, *options.gain, error.out());
+    error.require("refuses a gain of " + std::to_string(*options.gain));
+  }
+  if (options.trigger == CameraTrigger::kFreeRun) {
+    arv_camera_clear_triggers(c, error.out());
+    error.require("refuses to run without trigger");
+  } else {
+    const bool software = options.trigger == CameraTrigger::kSoftware;
+    const std::string source = software ? "Software" : options.line;
+    arv_camera_set_trigger(c, source.c_str(), error.out());
+    error.require("refuses the trigger source " + source);
+  }
+  for (const char* feature : {"PtpEnable", "GevIEEE1588"}) {  // SFNC 2.4 and before it
+    if (options.follow_host_clock && arv_camera_is_feature_available(c, feature, nullptr)) {
+      arv_camera_set_boolean(c, feature, TRUE, error.out());
+      error.require(std::string("refuses to follow the host's clock (") + feature + ")");
+    }
+  }
+  arv_camera_gv_set_packet_size_adjustment(c, ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
+  arv_camera_gv_set_packet_size(c, options.packet_bytes, error.out());
+  error.require("refuses packets of " + std::to_string(options.packet_bytes) + " bytes");
+  region = {0, 0, limits.sensor_width / limits.x.size * limits.x.size,
+            limits.sensor_height / limits.y.size * limits.y.size};
+  arv_camera_set_region(c, 0, 0, region.width, region.height, error.out());
+  error.require("refuses its full image as region");
+}
+
+/// Buffers hold a full image each: a change of the region's size needs no others.
+void GigeCamera::Impl::openStream() {
+  ArvError error(options.device);
+  stream.reset(arv_camera_create_stream(camera.get(), nullptr, nullptr, error.out()));
+  error.require("opens no stream");
+  const auto bytes = static_cast<std::size_t>(limits.sensor_width) *
+                     static_cast<std::size_t>(limits.sensor_height);
+  g_object_set(stream.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
+               "socket-buffer-size", static_cast<gint>(2 * bytes), nullptr);
+  for (int i = 0; i < options.buffers; ++i) {
+    arv_stream_push_buffer(stream.get(), arv_buffer_new_allocate(bytes));
+  }
+}
+
+GigeImage GigeCamera::Impl::imageOf(ArvBuffer* buffer) {
+  GigeImage result;
+  Window& w = result.window;
+  arv_buffer_get_image_region(buffer, &w.x, &w.y, &w.width, &w.height);
+  std::size_t size = 0;
+  const void* data = arv_buffer_get_data(buffer, &size);
+  const auto expected = static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height);
+  const Window sensor{0, 0, limits.sensor_width, limits.sensor_height};
+  if (arv_buffer_get_image_pixel_format(buffer) != ARV_PIXEL_FORMAT_MONO_8 || size < expected ||
+      intersect(w, sensor) != w) {
+    throw DeviceError("camera " + options.device + ": sent an image of " + std::to_string(w.width) +
+                      " x " + std::to_string(w.height) + " in " + std::to_string(size) +
+                      " bytes; expected 8-bit grey on its own sensor");
+  }
+  result.image = GrayImage(w.width, w.height);
+  std::memcpy(result.image.pixels.data(), data, expected);
+  result.stamp_ns = static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer));
+  const auto real_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+  result.real_arrival = Time::fromNanoseconds(real_ns);
+  result.arrival = Time::fromNanoseconds(real_ns + steadyMinusReal_ns());
+  return result;
+}
+
+GigeCamera::GigeCamera(const GigeCameraOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+GigeCamera::~GigeCamera() = default;
+
+const RegionLimits& GigeCamera::limits() const { return impl_->limits; }
+double GigeCamera::exposure() const { return impl_->exposure_s; }
+const Window& GigeCamera::region() const { return impl_->region; }
+
+void GigeCamera::setRegion(const Window& region) {
+  if (region == impl_->region) {
+    return;
+  }
+  const bool same_size =
+      region.width == impl_->region.width && region.height == impl_->region.height;
+  ArvCamera* c = impl_->camera.get();
+  ArvError error(impl_->options.device);
+  if (same_size) {
+    ArvDevice* device = impl_->device.get();
+    arv_device_set_integer_feature_value(device, "OffsetX", region.x, error.out());
+    error.require("refuses to move its region to column " + std::to_string(region.x));
+    arv_device_set_integer_feature_value(device, "OffsetY", region.y, error.out());
+    error.require("refuses to move its region to row " + std::to_string(region.y));
+  } else {
+    const bool was_streaming = impl_->streaming;
+    if (was_streaming) {
+      stop();
+    }
+    arv_camera_set_region(c, region.x, region.y, region.width, region.height, error.out());
+    error.require("refuses a region of " + std::to_string(region.width) + " x " +
+                  std::to_string(region.height));
+    if (was_streaming) {
+      start();
+    }
+  }
+  impl_->region = region;
+}
+
+void GigeCamera::setFrameRate(double rate_hz) {
+  if (impl_->options.trigger != CameraTrigger::kFreeRun) {
+    return;  // what triggers it sets the rate
+  }
+  ArvError error(impl_->options.device);
+  arv_camera_set_frame_rate(impl_->camera.get(), rate_hz, error.out());
+  error.require("refuses " + std::to_string(rate_hz) + " images a second");
+}
+
+void GigeCamera::start() {
+  ArvError error(impl_->options.device);
+  arv_camera_start_acquisition(impl_->camera.get(), error.out());
+  error.require("does not start");
+  impl_->streaming = true;
+}
+
+void GigeCamera::stop() {
+  ArvError error(impl_->options.device);
+  arv_camera_stop_acquisition(impl_->camera.get(), error.out());
+  error.require("does not stop");
+  impl_->streaming = false;
+}
+
+void GigeCamera::fire() {
+  ArvError error(impl_->options.device);
+  arv_camera_software_trigger(impl_->camera.get(), error.out());
+  error.require("does not take the software trigger");
+}
+
+std::optional<GigeImage> GigeCamera::take(double timeout_s) {
+  const auto timeout_us = static_cast<std::uint64_t>(std::max(0.0, timeout_s) * 1e6);
+  ArvStream* stream = impl_->stream.get();
+  ArvBuffer* buffer = timeout_us > 0 ? arv_stream_timeout_pop_buffer(stream, timeout_us)
+                                     : arv_stream_try_pop_buffer(stream);
+  if (buffer == nullptr) {
+    if (impl_->control_lost) {
+      throw DeviceError("camera " + impl_->options.device +
+                        ": it no longer answers, or another program took control of it");
+    }
+    return std::nullopt;
+  }
+  // Back to the stream whatever happens.
+  struct Giver {
+    ArvStream* stream;
+    ArvBuffer* buffer;
+    ~Giver() { arv_stream_push_buffer(stream, buffer); }
+  } const giver{stream, buffer};
+  if (arv_buffer_get_status(buffer) != ARV_BUFFER_STATUS_SUCCESS) {
+    ++impl_->broken;
+    return std::nullopt;
+  }
+  ++impl_->images;
+  return impl_->imageOf(buffer);
+}
+
+GigeCounts GigeCamera::counts() const {
+  guint64 completed = 0;
+  guint64 failures = 0;
+  guint64 underruns = 0;
+  arv_stream_get_statistics(impl_->stream.get(), &completed, &failures, &underruns);
+  guint64 resent = 0;
+  guint64 missing = 0;
+  arv_gv_stream_get_statistics(ARV_GV_STREAM(impl_->stream.get()), &resent, &missing);
+  GigeCounts counts;
+  counts.images = impl_->images;
+  counts.lost_images = impl_->broken + static_cast<std::int64_t>(underruns);
+  counts.resent_packets = static_cast<std::int64_t>(resent);
+  counts.missing_packets = static_cast<std::int64_t>(missing);
+  return counts;
+}
+
+}  // namespace ringhook
