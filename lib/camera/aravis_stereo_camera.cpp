@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -39,6 +40,12 @@ void requireRate(double rate_hz) {
   }
 }
 
+Time now() {
+  return Time::fromNanoseconds(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now().time_since_epoch())
+          .count());
+}
+
 double secondsSince(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
@@ -56,7 +63,7 @@ struct AravisStereoCamera::Impl {
   };
 
   void serveWishes() noexcept;
-  void grant(const Wish& wish);
+  void grant(const Wish& asked);
   void fireAt(SteadyClock::time_point& next, double rate_hz);
   Time midExposure(int side, const GigeImage& image);
   bool collect(int side, double timeout_s);
@@ -68,7 +75,9 @@ struct AravisStereoCamera::Impl {
   std::array<StampClock, 2> clocks;
   StereoPairing pairing;
   std::int64_t pairs = 0;
+  std::int64_t settling = 0;
   double lateness_s = 0.0;
+  std::atomic<std::int64_t> settled_ns = 0;  // since when both cameras stream; host's steady clock
 
   std::mutex mutex;  // guards what follows
   std::condition_variable changed;
@@ -98,6 +107,7 @@ AravisStereoCamera::Impl::Impl(const AravisOptions& o)
     camera->setFrameRate(options.rate_hz);
     camera->start();
   }
+  settled_ns = now().nanoseconds();
   thread = std::thread([this] { serveWishes(); });
 }
 
@@ -128,11 +138,11 @@ void AravisStereoCamera::Impl::serveWishes() noexcept {
       if (ending) {
         return;
       }
-      const Wish now = wish;
+      const Wish asked = wish;
       lock.unlock();
-      grant(now);
+      grant(asked);
       if (fires && SteadyClock::now() >= next_shot) {
-        fireAt(next_shot, now.rate_hz);
+        fireAt(next_shot, asked.rate_hz);
       }
     }
   } catch (...) {
@@ -141,16 +151,23 @@ void AravisStereoCamera::Impl::serveWishes() noexcept {
   }
 }
 
-void AravisStereoCamera::Impl::grant(const Wish& now) {
+void AravisStereoCamera::Impl::grant(const Wish& asked) {
+  bool restarted = false;
   for (std::size_t side = 0; side < 2; ++side) {
     GigeCamera& camera = *cameras[side];
-    if (now.rate_hz != granted.rate_hz) {
-      camera.setFrameRate(now.rate_hz);
+    if (asked.rate_hz != granted.rate_hz) {
+      camera.setFrameRate(asked.rate_hz);
     }
-    camera.setRegion(readoutRegion(now.windows[side], camera.region(), camera.limits()));
+    const Window before = camera.region();
+    camera.setRegion(readoutRegion(asked.windows[side], before, camera.limits()));
+    restarted = restarted || before.width != camera.region().width ||
+                before.height != camera.region().height;
+  }
+  if (restarted) {
+    settled_ns = now().nanoseconds();
   }
   const std::lock_guard lock(mutex);
-  granted = now;
+  granted = asked;
 }
 
 /// Shots stay on a grid; those that are past are left out.
@@ -188,6 +205,10 @@ bool AravisStereoCamera::Impl::collect(int side, double timeout_s) {
     return false;
   }
   const Time time = midExposure(side, *image);
+  if (time.nanoseconds() < settled_ns) {
+    ++settling;  // one camera streamed, the other did not yet
+    return true;
+  }
   pairing.add(side, {time, image->window, std::move(image->image)});
   return true;
 }
@@ -261,6 +282,7 @@ AravisCounts AravisStereoCamera::counts() const {
   counts.right = impl_->cameras[1]->counts();
   counts.unpaired_left = impl_->pairing.unpaired(0);
   counts.unpaired_right = impl_->pairing.unpaired(1);
+  counts.settling = impl_->settling;
   counts.lateness_s = impl_->lateness_s;
   return counts;
 }
