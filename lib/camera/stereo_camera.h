@@ -2,8 +2,8 @@
 
 /// \file
 /// The one interface of every stereo camera: simulated, replayed from a stored sequence, or real.
-/// The camera reads out one window (AOI) per side; a window asked for acts from the next exposure
-/// on, and every frame says which windows it was taken with.
+/// The camera reads out one window (AOI) per side; a window asked for acts from one of the next
+/// exposures on, and every frame says which windows it was taken with.
 
 #include <optional>
 
@@ -22,12 +22,13 @@ class StereoCamera {
   /// Size of the full image: (0, 0, width, height) [px], the same for both sides.
   [[nodiscard]] virtual Window fullImage() const = 0;
 
-  /// Regions to read from the next exposure on; clipped to the full image, an empty one means
-  /// the full image. A source that cannot choose (a recording) delivers what it has.
+  /// Regions to read from now on; clipped to the full image, an empty one means the full image. A
+  /// real camera takes some exposures to follow and may read somewhat more, which holds the window.
+  /// A source that cannot choose (a recording) delivers what it has.
   virtual void setWindows(const Window& left, const Window& right) = 0;
 
-  /// Pairs per second [Hz] from the next exposure on, up to what the sensor can do; throws
-  /// DeviceError for a rate that is not positive. A recording keeps its own rate.
+  /// Pairs per second [Hz] from now on, up to what the sensor can do; throws DeviceError for a
+  /// rate that is not positive. A recording keeps its own rate.
   virtual void setFrameRate(double rate_hz) = 0;
 
   /// The next pair that has arrived, oldest first; nothing if none came within `timeout_s` [s].

@@ -28,6 +28,9 @@ class StereoCameraUnderTest {
   [[nodiscard]] virtual bool chooses() const = 0;
   /// Pairs a second it was opened with [Hz].
   [[nodiscard]] virtual double rateHz() const = 0;
+  /// A device in real time: a busy host may make it leave exposures out, settings take some
+  /// exposures to act, and regions may be larger than asked.
+  [[nodiscard]] virtual bool realTime() const { return false; }
 };
 
 using StereoCameraMaker = std::unique_ptr<StereoCameraUnderTest> (*)();
@@ -37,8 +40,13 @@ class StereoCameraContract : public ::testing::TestWithParam<StereoCameraMaker> 
   StereoCameraContract() : held_(GetParam()()) {}
   StereoCamera& camera() { return held_->camera(); }
   StereoCameraUnderTest& held() { return *held_; }
-  /// The next `count` frames, fewer if the camera has finished or none comes within a second.
+  /// The next `count` frames, fewer if the camera has finished or none comes for long.
   std::vector<StereoFrame> take(std::size_t count);
+  /// The first frame that was taken with these windows, as far as this camera can choose them; the
+  /// last one seen if that never comes.
+  StereoFrame takeWith(const Window& left, const Window& right);
+  /// Whether the frame's window is the asked one, or holds it where the camera may read more.
+  bool obeys(const Window& got, const Window& asked);
 
  private:
   std::unique_ptr<StereoCameraUnderTest> held_;
