@@ -9,6 +9,7 @@
 #include "app/calibrate.h"
 #include "app/evaluate.h"
 #include "app/interrupt.h"
+#include "app/model.h"
 #include "app/servo.h"
 #include "app/simulate.h"
 #include "core/error.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv) {
   ringhook::addArmCommand(app);
   ringhook::addCalibrateCommand(app);
   ringhook::addEvaluateCommand(app);
+  ringhook::addModelCommand(app);
   ringhook::addSimulateCommand(app);
   try {
     app.parse(argc, argv);
@@ -34,7 +36,7 @@ int run(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     std::fprintf(stderr,
-                 "ringhook: a command is required: servo, arm, calibrate, evaluate or simulate\n"
+                 "ringhook: a command is required: servo, arm, calibrate, evaluate, model or simulate\n"
                  "Run with --help for more information.\n");
     return 2;
   }

@@ -4,6 +4,9 @@
 #include <iomanip>
 #include <numbers>
 #include <sstream>
+#include <utility>
+
+#include "core/error.h"
 
 namespace ringhook {
 namespace {
@@ -111,6 +114,39 @@ Pose HookShape::oMk() const {
   pose.linear() << 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   pose.translation() = Eigen::Vector3d(plate_face_x, -arc_radius, plate_centre_z);
   return pose;
+}
+
+void checkHookShape(const HookShape& shape) {
+  constexpr double kLargest = 5.0;  // [m]
+  const auto check = [](bool good, const std::string& sentence) {
+    if (!good) {
+      throw InputError("hook: " + sentence);
+    }
+  };
+  const std::pair<const char*, double> measures[] = {
+      {"bar width", shape.bar_width},         {"bar thickness", shape.bar_thickness},
+      {"arc radius", shape.arc_radius},       {"shank length", shape.shank_length},
+      {"tip rise", shape.tip_rise},           {"plate width", shape.plate_width},
+      {"plate height", shape.plate_height},   {"plate face", shape.plate_face_x},
+      {"plate centre", shape.plate_centre_z}, {"tag size", shape.tag_size},
+      {"tag distance", shape.tag_distance},   {"tracked top", shape.tracked_top}};
+  for (const auto& [name, value] : measures) {
+    check(value >= 0.0005 && value <= kLargest, std::string(name) + ": expected 0.5 mm to 5000 mm");
+  }
+  const double plate_bottom = shape.plate_centre_z - shape.plate_height / 2.0;
+  const double plate_top = shape.plate_centre_z + shape.plate_height / 2.0;
+  check(shape.arc_radius > 0.55 * shape.bar_width,
+        "arc radius: expected more than half the bar width, or the J closes");
+  check(shape.plate_face_x > shape.bar_thickness / 2.0,
+        "plate face: expected in front of the bar, beyond half the bar thickness");
+  check(shape.tag_distance >= shape.tag_size, "tag distance: expected at least the tag size");
+  check(shape.plate_width >= shape.tag_size, "plate width: expected at least the tag size");
+  check(shape.plate_height >= shape.tag_distance + shape.tag_size,
+        "plate height: expected at least tag distance and tag size together");
+  check(plate_bottom > 0.0, "plate centre: expected so high that the plate ends above the arc");
+  check(shape.tracked_top > plate_top && shape.tracked_top <= shape.shank_length,
+        "tracked top: expected between the plate's top and the shank length");
+  check(shape.arc_chords >= 4 && shape.arc_chords <= 256, "arc chords: expected 4 to 256");
 }
 
 std::vector<Eigen::Vector2d> barOutline(const HookShape& shape, double top_z, int arc_chords) {

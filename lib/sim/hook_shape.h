@@ -37,6 +37,9 @@ struct HookShape {
   [[nodiscard]] Pose oMk() const;
 };
 
+/// Throws InputError naming the measure that makes no hook, and what was expected of it.
+void checkHookShape(const HookShape& shape);
+
 /// Outline (y, z) [m] of the bar's front face from `top_z` down the outer side of the shank, round
 /// the arc, across the tip's end and back up the inner side; counter-clockwise seen from +x. The
 /// arc's inner vertices stand off the circle so that the chords' mean distance from it is zero.

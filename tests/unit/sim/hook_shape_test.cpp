@@ -30,6 +30,32 @@ TEST(HookShape, StoredModelsAreWhatTheCodeEmits) {
   EXPECT_EQ(stored("datasets/models/hook/marker.yaml"), markerYaml(shape));
 }
 
+TEST(HookShape, RefusesWhatIsNoHook) {
+  EXPECT_NO_THROW(checkHookShape({}));
+  const auto refused = [](auto spoil) {
+    HookShape shape;
+    spoil(shape);
+    try {
+      checkHookShape(shape);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refused([](HookShape& s) { s.bar_width = -0.01; }), testing::HasSubstr("bar width"));
+  EXPECT_THAT(refused([](HookShape& s) { s.tip_rise = std::nan(""); }),
+              testing::HasSubstr("tip rise"));
+  EXPECT_THAT(refused([](HookShape& s) { s.arc_radius = 0.006; }),
+              testing::HasSubstr("the J closes"));
+  EXPECT_THAT(refused([](HookShape& s) { s.tag_size = 0.055; }),
+              testing::HasSubstr("tag distance"));
+  EXPECT_THAT(refused([](HookShape& s) { s.plate_height = 0.09; }),
+              testing::HasSubstr("plate height"));
+  EXPECT_THAT(refused([](HookShape& s) { s.tracked_top = 0.5; }),
+              testing::HasSubstr("tracked top"));
+  EXPECT_THAT(refused([](HookShape& s) { s.arc_chords = 1; }), testing::HasSubstr("arc chords"));
+}
+
 TEST(HookShape, OutlineEnclosesTheBarsArea) {
   const HookShape shape;
   const auto outline = barOutline(shape, 0.45, 200);
