@@ -3,6 +3,14 @@
 /// \file
 /// One seeded cell: the values that CellOptions leaves to chance, drawn once. The draws are made
 /// here from the generator's bits, so that a seed means the same cell with every standard library.
+/// Drawn, in this order, each uniform unless said otherwise:
+/// - from the seed's first stream: belt speed; the arm's six joint zero errors (normal); then for
+///   each hook its pivot height, friction, damping, and per plane the phase of its swing;
+/// - from its second stream: for each hook the amplitude per plane;
+/// - from its third stream: phases of the belt's ripple, then how long it runs and stands.
+/// A stream of its own keeps what was drawn before as it is when something is added. The scene's
+/// draws (lamps, wall, clutter, occluders, noise) and the rig's errors are made where they are used
+/// (scene_options.h, nominal_rig.h), from the same seed.
 
 #include <vector>
 
@@ -21,15 +29,13 @@ struct HookDraw {
 };
 
 struct CellDraw {
-  double belt_speed = 0.0;                       ///< actual mean [m/s]
+  double belt_speed = 0.0;  ///< of the drive when it runs [m/s]
+  BeltProfile belt;
   JointVector zero_error = JointVector::Zero();  ///< true minus reported joints [rad]
   std::vector<HookDraw> hooks;
 };
 
 /// The cell that options.seed stands for.
 CellDraw drawCell(const CellOptions& options);
-
-/// Belt speed [m/s] at `time_s` [s].
-double beltSpeed(const CellOptions& options, const CellDraw& draw, double time_s);
 
 }  // namespace ringhook

@@ -7,25 +7,40 @@
 /// itself, and every seed makes them differ a little from the nominal ones given here.
 
 #include <cstdint>
-#include <functional>
+#include <optional>
+#include <vector>
 
 #include "core/joints.h"
+#include "sim/belt_profile.h"
 #include "sim/scene_options.h"
 
 namespace ringhook {
 
-/// Overhead belt, moving along +y_f.
+/// From low to high, every value alike.
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Overhead belt, moving along +y_f; how: belt_profile.h.
 struct BeltOptions {
   double x = 0.42;             ///< of the pivots in f [m]
   double pivot_z = 1.05;       ///< of the pivots in f [m]
   double start_y = -0.65;      ///< first hook's pivot in f at time zero [m]
   double entry_y = -0.65;      ///< hooks hang locked upstream of here, and swing from here on [m]
-  double speed = 0.05;         ///< mean, along +y_f [m/s]
-  double speed_spread = 0.02;  ///< actual mean speed is speed * (1 + uniform(-spread, +spread))
-  double variation = 0.0;      ///< amplitude of a sinusoidal change, as a fraction of speed
-  double variation_period = 3.0;  ///< of that change [s]
-  /// Factor on the mean speed at a time [s]; replaces the sinusoid. Empty: none.
-  std::function<double(double)> profile;
+  double speed = 0.05;         ///< of the drive when it runs, along +y_f [m/s]
+  double speed_spread = 0.02;  ///< actual speed is speed * (1 + uniform(-spread, +spread))
+  double start_s = 0.0;        ///< stands until then; 0: runs at time zero [s]
+  int stops = 0;               ///< how often it stops and starts again
+  Range run_s{4.0, 8.0};       ///< from a start's beginning to the next stop's beginning [s]
+  Range stand_s{1.0, 3.0};     ///< from a stop's beginning to the next start's [s], or longer if
+                               ///< the ramp takes longer
+  double acceleration = 0.4;   ///< of starts and stops, at most [m/s^2]
+  double jerk = 4.0;           ///< likewise [m/s^3]
+  double pitch = 0.1;          ///< of the chain on its sprocket [m]
+  std::vector<double> ripple;  ///< harmonics 1, 2, ... as fractions of the speed; sum below 1
+  std::optional<BeltProfile> profile;  ///< exactly this motion, instead of all the above from speed
+                                       ///< on; for tests and for belts that were measured
 };
 
 /// Hooks on the belt; their shape is in hook_body.h.
@@ -34,6 +49,7 @@ struct HookOptions {
   double spacing = 0.80;             ///< between pivots, each one upstream of the last [m]
   double swing_about_x = 0.0523599;  ///< amplitude at the entry, swing along the belt [rad]
   double swing_about_y = 0.0523599;  ///< amplitude at the entry, swing towards the cameras [rad]
+  double swing_least = 1.0;          ///< actual amplitudes are the above * uniform(swing_least, 1)
   double length_spread = 0.02;       ///< pivot height above o is 0.450 * (1 + uniform(-s, +s))
   double pivot_friction = 2e-4;      ///< Coulomb, each hinge [N m]
   double pivot_damping = 5e-4;       ///< viscous, each hinge [N m s/rad]

@@ -7,6 +7,7 @@
 #include "sim/cell_forces.h"
 #include "sim/cell_model.h"
 #include "sim/drives.h"
+#include "sim/leapfrog.h"
 
 namespace ringhook {
 namespace {
@@ -30,7 +31,15 @@ void checkOptions(const CellOptions& o) {
   require(o.ring.clearance > 0.0 && o.ring.clearance < 0.05,
           "ring.clearance must be between 0 and 0.05 m.");
   require(o.hook.spacing >= 0.2, "hook.spacing must be at least 0.2 m.");
-  require(o.belt.variation_period > 0.0, "belt.variation_period must be positive.");
+  require(o.hook.swing_least >= 0.0 && o.hook.swing_least <= 1.0,
+          "hook.swing_least must be between 0 and 1.");
+  require(o.belt.acceleration > 0.0 && o.belt.jerk > 0.0 && o.belt.pitch > 0.0,
+          "belt.acceleration, jerk and pitch must be positive.");
+  double ripple = 0.0;
+  for (const double fraction : o.belt.ripple) {
+    ripple += std::abs(fraction);
+  }
+  require(ripple < 1.0, "belt.ripple must sum up to less than 1.");
 }
 
 void indexGeoms(CellState& cell) {
@@ -71,8 +80,7 @@ void indexModel(CellState& cell) {
     const std::string name = numbered("hook", i);
     cell.hooks.push_back({findObject(m, mjOBJ_BODY, name),
                           {qpos(name + "_x"), qpos(name + "_y")},
-                          {dof(name + "_x"), dof(name + "_y")},
-                          false});
+                          {dof(name + "_x"), dof(name + "_y")}});
   }
   for (int i = 0; i < cell.options.ring.count; ++i) {
     const std::string name = numbered("ring", i);
@@ -113,6 +121,7 @@ void holdHooks(CellState& cell) {
     const double y = cell.options.belt.start_y -
                      static_cast<double>(i) * cell.options.hook.spacing + cell.belt_set_point;
     hook.swinging = y >= cell.options.belt.entry_y - 1e-9;
+    hook.unstaggered = hook.swinging;
     for (int axis = 0; axis < 2; ++axis) {
       cell.data->qpos[hook.qpos[axis]] = hook.swinging ? cell.draw.hooks[i].angle[axis] : 0.0;
       cell.data->qvel[hook.dof[axis]] = hook.swinging ? cell.draw.hooks[i].rate[axis] : 0.0;
@@ -155,7 +164,7 @@ CellState makeCellState(const CellOptions& options) {
   for (int i = 0; i < 6; ++i) {
     cell.data->qpos[cell.arm_qpos[i]] = cell.set_point[i] + cell.draw.zero_error[i];
   }
-  cell.data->qvel[cell.belt_dof] = beltSpeed(options, cell.draw, 0.0);
+  cell.data->qvel[cell.belt_dof] = beltSpeed(cell.draw.belt, 0.0);
   for (const char* jaw : {"upper", "lower"}) {
     const int joint = findObject(*cell.model, mjOBJ_JOINT, jaw);
     cell.data->qpos[cell.model->jnt_qposadr[joint]] = options.gripper.opening_angle;
@@ -171,7 +180,9 @@ void stepCell(CellState& cell) {
   mjData* d = cell.data.get();
   driveMotions(cell);
   d->ctrl[0] = d->ctrl[1] = jawAngle(cell);
+  beginLeap(cell);
   mj_step2(m, d);
+  endLeap(cell);
   ++cell.steps;
   recordForces(cell);
   holdHooks(cell);

@@ -19,9 +19,11 @@ enum class RingPlace { magazine, gripper, loose };
 
 struct HookSlot {
   int body = 0;
-  int qpos[2] = {0, 0};   ///< of the swing about x_f, y_f
-  int dof[2] = {0, 0};    ///< likewise
-  bool swinging = false;  ///< past the entry
+  int qpos[2] = {0, 0};               ///< of the swing about x_f, y_f
+  int dof[2] = {0, 0};                ///< likewise
+  bool swinging = false;              ///< past the entry
+  bool unstaggered = false;           ///< set swinging at this very instant: see leapfrog.h
+  double staggered_rate[2] = {0, 0};  ///< swing rates half a step ago [rad/s]
 };
 
 struct RingSlot {

@@ -21,8 +21,8 @@ void moveSetPoints(CellState& cell) {
   }
   cell.set_point =
       (cell.set_point + step * cell.velocity).cwiseMax(limits.lower).cwiseMin(limits.upper);
-  const double middle = (static_cast<double>(cell.steps) + 0.5) * step;
-  cell.belt_set_point += step * beltSpeed(cell.options, cell.draw, middle);
+  const double next_s = static_cast<double>(cell.steps + 1) * step;
+  cell.belt_set_point = beltTravel(cell.draw.belt, next_s);
 }
 
 }  // namespace

@@ -42,8 +42,6 @@ std::vector<Section> sections(CellOptions& c) {
       {"belt",
        {{"speed_m_s", &c.belt.speed, 1.0, 0.0, 1.0},
         {"speed_spread", &c.belt.speed_spread, 1.0, 0.0, 0.5},
-        {"variation", &c.belt.variation, 1.0, 0.0, 1.0},
-        {"variation_period_s", &c.belt.variation_period, 1.0, 0.1, kAny},
         {"start_y_m", &c.belt.start_y, 1.0, -10.0, 10.0},
         {"entry_y_m", &c.belt.entry_y, 1.0, -10.0, 10.0}},
        {}},

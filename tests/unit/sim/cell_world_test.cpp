@@ -146,13 +146,19 @@ TEST(CellWorld, AHookAtRestHangsStraight) {
 
 TEST(CellWorld, BeltFollowsItsProfile) {
   CellOptions options = quietCell();
-  options.belt.speed = 0.2;
-  options.belt.speed_spread = 0.0;
-  options.belt.profile = [](double t) { return t < 1.0 ? 1.0 : 0.5; };
+  BeltProfile profile;
+  profile.initial_speed = 0.2;
+  profile.changes = {{1.0, 0.1}};
+  profile.ripple = {{0.05, 0.3}, {0.02, 1.0}};
+  options.belt.profile = profile;
   CellWorld world(options);
   const double y0 = truth(world).hooks[0].fMp.translation().y();
-  world.advanceTo(Time::fromSeconds(2.0));
-  EXPECT_NEAR(truth(world).hooks[0].fMp.translation().y() - y0, 0.3, 1e-5);
+  for (int i = 1; i <= 200; ++i) {
+    world.advanceTo(Time::fromSeconds(0.01 * i));
+    const CellTruth now = truth(world);
+    EXPECT_NEAR(now.hooks[0].fMp.translation().y() - y0, beltTravel(profile, 0.01 * i), 1e-8);
+    EXPECT_NEAR(now.belt_speed, beltSpeed(profile, 0.01 * i), 5e-4);
+  }
 }
 
 TEST(CellWorld, HooksSwingFromTheEntryOn) {
