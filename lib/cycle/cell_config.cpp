@@ -80,8 +80,76 @@ VisionConfig readVision(YamlFields fields) {
   vision.stale_after_s = fields.number("stale_after_ms", 1.0, 5000.0) * 1e-3;
   vision.lost_after_frames = fields.integer("lost_after_frames", 1, 1000);
   vision.transport_delay_s = fields.number("transport_delay_ms", 0.0, 1000.0) * 1e-3;
+  if (fields.has("window_lag_frames")) {
+    vision.window_lag_frames = fields.integer("window_lag_frames", 1, 10);
+  }
   fields.refuseUnknown();
   return vision;
+}
+
+CameraDevices readCameras(YamlFields fields) {
+  CameraDevices cameras;
+  cameras.left = fields.text("left");
+  cameras.right = fields.text("right");
+  if (cameras.left == cameras.right) {
+    fields.refuse("right", "another camera than the left one");
+  }
+  const std::string clock = fields.text("clock");
+  if (clock != "host" && clock != "own") {
+    fields.refuse("clock", "host or own, got " + clock);
+  }
+  cameras.host_clock = clock == "host";
+  cameras.trigger = fields.text("trigger");
+  cameras.exposure_s = fields.number("exposure_us", 1.0, 1e6) * 1e-6;
+  if (fields.has("gain")) {
+    cameras.gain = fields.number("gain", -100.0, 100.0);
+  }
+  cameras.packet_bytes = fields.integer("packet_bytes", 576, 16000);
+  fields.refuseUnknown();
+  return cameras;
+}
+
+ControllerDevice readController(YamlFields fields) {
+  ControllerDevice arm;
+  arm.address = fields.text("address");
+  const auto port = [&fields](const char* key, int& value) {
+    if (fields.has(key)) {
+      value = fields.integer(key, 1, 65535);
+    }
+  };
+  port("motion_port", arm.motion_port);
+  port("system_port", arm.system_port);
+  port("state_port", arm.state_port);
+  port("io_port", arm.io_port);
+  arm.gripper_module = fields.integer("gripper_module", 0, 1000);
+  arm.gripper_pin = fields.integer("gripper_pin", 0, 1000);
+  const std::string closes = fields.text("gripper_closes");
+  if (closes != "on" && closes != "off") {
+    fields.refuse("gripper_closes", "on or off, got " + closes);
+  }
+  arm.gripper_closes_on = closes == "on";
+  fields.refuseUnknown();
+  return arm;
+}
+
+DeviceConfig readDevices(YamlFields fields) {
+  DeviceConfig devices;
+  const std::string kind = fields.text("kind");
+  if (kind != "simulated" && kind != "network") {
+    fields.refuse("kind", "simulated or network, got " + kind);
+  }
+  if (kind == "simulated") {
+    devices.scenario = fields.path("scenario");
+  } else {
+    devices.kind = DeviceKind::kNetwork;
+    if (fields.has("scenario")) {
+      devices.scenario = fields.path("scenario");
+    }
+    devices.cameras = readCameras(fields.section("cameras"));
+    devices.arm = readController(fields.section("arm"));
+  }
+  fields.refuseUnknown();
+  return devices;
 }
 
 }  // namespace
@@ -92,13 +160,7 @@ CellConfig loadCellConfig(const std::filesystem::path& file) {
   cell.file = file;
   cell.name = fields.text("name");
   cell.rig = fields.path("rig");
-  YamlFields devices = fields.section("devices");
-  const std::string kind = devices.text("kind");
-  if (kind != "simulated") {
-    devices.refuse("kind", "simulated, got " + kind);
-  }
-  cell.scenario = devices.path("scenario");
-  devices.refuseUnknown();
+  cell.devices = readDevices(fields.section("devices"));
   cell.hook = readHook(fields.section("hook"));
   cell.belt = readBelt(fields.section("belt"));
   cell.arm = readArm(fields.section("arm"));

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/joints.h"
@@ -68,13 +69,50 @@ struct VisionConfig {
   double stale_after_s = 0.15;       ///< an estimate without a fix for longer is not acted upon
   int lost_after_frames = 10;        ///< consecutive misses until the hook counts as lost
   double transport_delay_s = 0.008;  ///< from mid-exposure to arrival, nominal
+  int window_lag_frames = 1;         ///< exposures until a window asked for acts, at most
+};
+
+/// How the loop reaches its devices.
+enum class DeviceKind {
+  kSimulated,  ///< a simulated cell in the same process and in virtual time
+  kNetwork     ///< GigE Vision cameras and an RX60 controller, real ones or `ringhook simulate`
+};
+
+/// Two GigE Vision cameras.
+struct CameraDevices {
+  std::string left;            ///< IPv4 address or serial number
+  std::string right;           ///< likewise
+  bool host_clock = false;     ///< stamps are the host's time (PTP); else each camera's own
+  std::string trigger;         ///< free-run, software, or the name of a line
+  double exposure_s = 0.0005;  ///< [s]
+  std::optional<double> gain;  ///< in the cameras' unit; nothing: left as it is
+  int packet_bytes = 1500;     ///< largest packet that the line carries whole
+};
+
+/// An RX60's controller with the VAL3 server.
+struct ControllerDevice {
+  std::string address = "127.0.0.1";  ///< name or numeric address
+  int motion_port = 11000;
+  int system_port = 11001;
+  int state_port = 11002;
+  int io_port = 11003;
+  int gripper_module = 2;         ///< of the output that works the gripper
+  int gripper_pin = 0;            ///< likewise
+  bool gripper_closes_on = true;  ///< state of that output that closes it
+};
+
+struct DeviceConfig {
+  DeviceKind kind = DeviceKind::kSimulated;
+  std::filesystem::path scenario;  ///< of the simulated cell; empty for real devices
+  CameraDevices cameras;           ///< of a network
+  ControllerDevice arm;            ///< of a network
 };
 
 struct CellConfig {
   std::string name;
-  std::filesystem::path file;      ///< where it was read
-  std::filesystem::path rig;       ///< rig.yaml
-  std::filesystem::path scenario;  ///< of the simulated devices
+  std::filesystem::path file;  ///< where it was read
+  std::filesystem::path rig;   ///< rig.yaml
+  DeviceConfig devices;
   HookConfig hook;
   BeltConfig belt;
   ArmConfig arm;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPivotTolerance = 0.06;  // [m]; a wrong detection is off by decimetres
 constexpr double kErrorHorizon = 0.1;     // [s]; of the prediction error that is reported
+constexpr double kLongestInterval = 0.2;  // [s]; further ahead windows would only grow
 
 HookFilterOptions filterOptions(const CellConfig& cell, const Pose& fMc1) {
   HookFilterOptions options;
@@ -63,7 +64,11 @@ VisionReport VisionStep::process(const StereoFrame& frame) {
   } else {
     miss(fix.reason(), report);
   }
-  planWindows(frame.time + 1.0 / rateHz());
+  const double period_s = 1.0 / rateHz();
+  frame_interval_s_ =
+      last_frame_ ? std::clamp(frame.time - *last_frame_, period_s, kLongestInterval) : period_s;
+  last_frame_ = frame.time;
+  planWindows(frame.time);
   report.state = state_;
   return report;
 }
@@ -144,6 +149,7 @@ void VisionStep::restart() {
   filter_.restart();
   past_.clear();
   misses_ = 0;
+  last_frame_.reset();
   state_ = VisionState::kSearching;
   windows_ = search_windows_;
 }
@@ -156,20 +162,28 @@ double VisionStep::rateHz() const {
   return state_ == VisionState::kSearching ? cell_.vision.search_rate_hz : cell_.vision.rate_hz;
 }
 
-void VisionStep::planWindows(Time next_exposure) {
-  const Outcome<HookEstimate> next = filter_.predict(next_exposure);
-  if (state_ == VisionState::kSearching || !next) {
-    windows_ = search_windows_;
-    return;
+std::optional<Window> VisionStep::windowAt(Time exposure, int side) const {
+  const Outcome<HookEstimate> hook = filter_.predict(exposure);
+  if (!hook) {
+    return std::nullopt;
   }
   SearchWindowOptions options;
   options.margin_px = sight_.margin_px;
-  const Pose c1Mo = fMc1_.inverse() * next->fMo;
+  const Window rectified = searchWindow(rectifier_.view(side), fMc1_.inverse() * hook->fMo,
+                                        hook->covariance, sight_.outline_o, options);
+  return rectifier_.rawWindow(side, rectified);
+}
+
+/// The hook at every exposure that these windows may act on: a camera in real time takes them up
+/// some exposures later.
+void VisionStep::planWindows(Time now) {
   for (int side = 0; side < 2; ++side) {
-    const Window rectified =
-        searchWindow(rectifier_.view(side), c1Mo, next->covariance, sight_.outline_o, options);
-    const Window raw = rectifier_.rawWindow(side, rectified);
-    windows_[side] = raw.empty() ? search_windows_[side] : raw;
+    Window raw;
+    for (int lag = 1; lag <= cell_.vision.window_lag_frames; ++lag) {
+      raw = unite(raw, windowAt(now + lag * frame_interval_s_, side).value_or(Window{}));
+    }
+    const bool known = state_ != VisionState::kSearching && !raw.empty();
+    windows_[side] = known ? raw : search_windows_[side];
   }
 }
 

@@ -61,7 +61,8 @@ class VisionStep {
   void take(const HookFix& fix, VisionReport& report);
   void miss(const std::string& reason, VisionReport& report);
   void compareWithPast(const HookFix& fix, VisionReport& report);
-  void planWindows(Time next_exposure);
+  void planWindows(Time now);
+  [[nodiscard]] std::optional<Window> windowAt(Time exposure, int side) const;
 
   CellConfig cell_;
   Pose fMc1_;
@@ -70,6 +71,8 @@ class VisionStep {
   HookFilter filter_;
   VisionState state_ = VisionState::kSearching;
   int misses_ = 0;
+  std::optional<Time> last_frame_;
+  double frame_interval_s_ = 0.0;  ///< between the last two frames, at least a period
   std::array<Window, 2> search_windows_;
   std::array<Window, 2> windows_;
   std::deque<HookFilterState> past_;  ///< snapshots of the last 100 ms and a little more

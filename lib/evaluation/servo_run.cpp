@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "cycle/servo_loop.h"
+#include "evaluation/live_run.h"
 #include "evaluation/truth_log.h"
 #include "sim/nominal_rig.h"
 #include "sim/scenario.h"
@@ -24,9 +25,9 @@ constexpr double kTruthPeriod = 0.01;  // [s]
 
 fs::path scenarioFile(const CellConfig& cell, const std::string& name) {
   if (name.empty()) {
-    return cell.scenario;
+    return cell.devices.scenario;
   }
-  const fs::path file = cell.scenario.parent_path() / (name + ".yaml");
+  const fs::path file = cell.devices.scenario.parent_path() / (name + ".yaml");
   if (!fs::exists(file)) {
     throw InputError("--scenario " + name + ": expected a scenario with a file " + file.string());
   }
@@ -107,7 +108,8 @@ class Belt {
       witness_.startAttempt(i == 0 ? recorder() : nullptr);
       ProgressObserver observer(witness_, progress, i);
       ServoAttempt attempt;
-      attempt.loop = runAttempt(camera_, *arm_, vision_, task_, observer, stop);
+      VisionInTurn vision(camera_, vision_, observer);
+      attempt.loop = runAttempt(vision, *arm_, task_, observer, stop);
       attempt.truth = witness_.attempt();
       witness_.endAttempt();
       report.attempts.push_back(attempt);
@@ -186,6 +188,9 @@ class Belt {
 ServoReport runServo(const ServoJob& job, const std::atomic<bool>& stop,
                      const ServoProgress& progress, const AttemptDone& attempt_done) {
   const CellConfig cell = loadCellConfig(job.cell_file);
+  if (cell.devices.kind == DeviceKind::kNetwork) {
+    return runLiveServo(job, cell, stop, progress, attempt_done);
+  }
   const Scenario scenario = loadScenario(scenarioFile(cell, job.scenario));
   ServoReport report;
   report.cell = cell.name;

@@ -1,10 +1,10 @@
 #pragma once
 
 /// \file
-/// The operator's job on the simulated cell: hang a ring on each of so many passing hooks, judged
-/// by physics. Builds the devices of the cell, runs the loop in virtual time, keeps what it had
-/// when it is interrupted. Everything it returns is a function of the cell file, the scenario and
-/// the seed: no clock is read.
+/// The operator's job: hang a ring on each of so many passing hooks. On the simulated cell it runs
+/// in virtual time, is judged by physics, and everything it returns is a function of the cell file,
+/// the scenario and the seed. On a cell with devices on a network it runs in real time
+/// (live_run.h). What was finished is kept when it is interrupted.
 
 #include <atomic>
 #include <cstdint>
@@ -14,9 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "camera/aravis_stereo_camera.h"
 #include "cycle/hook_sight.h"
 #include "cycle/task_control.h"
 #include "evaluation/servo_witness.h"
+#include "robot/rx60/link_settings.h"
 
 namespace ringhook {
 
@@ -39,13 +41,21 @@ struct ServoJob {
 /// One hook's attempt, as the loop and as physics saw it.
 struct ServoAttempt {
   AttemptResult loop;
-  AttemptTruth truth;
+  std::optional<AttemptTruth> truth;  ///< simulated cell only
+};
+
+/// How the devices of a network did.
+struct LiveReport {
+  AravisCounts cameras;
+  rx60::LinkReport arm;
+  std::int64_t frames_passed_over = 0;  ///< a newer one had come when vision got to them
 };
 
 struct ServoReport {
   std::string cell;
   std::string scenario;
   std::vector<ServoAttempt> attempts;  ///< finished ones
+  std::optional<LiveReport> live;      ///< of a cell on a network
   LoopStatistics statistics;
   bool interrupted = false;
   std::filesystem::path sequence;  ///< recorded cycle; empty if none

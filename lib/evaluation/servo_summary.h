@@ -2,7 +2,8 @@
 
 /// \file
 /// What the servo task tells people and programs: a table, and summary.json (doc/formats.md).
-/// Nothing in it depends on the machine's speed, so the same seed gives the same file.
+/// For a simulated cell nothing in it depends on the machine's speed, so the same seed gives the
+/// same file.
 
 #include <string>
 
@@ -16,7 +17,9 @@ std::string servoTableRow(int attempt, const ServoAttempt& result);
 
 std::string servoSummaryJson(const ServoJob& job, const ServoReport& report);
 
-/// Rings that hang by physics.
+/// Rings that hang by physics; none where nobody judges.
 int ringsHung(const ServoReport& report);
+/// Rings that were let go over the tip.
+int ringsReleased(const ServoReport& report);
 
 }  // namespace ringhook

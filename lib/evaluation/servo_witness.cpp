@@ -13,17 +13,6 @@ constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
 
 }  // namespace
 
-void LoopStatistics::merge(const LoopStatistics& other) {
-  prediction_error_m.merge(other.prediction_error_m);
-  frame_age_s.merge(other.frame_age_s);
-  fix_error_m.merge(other.fix_error_m);
-  nis.merge(other.nis);
-  frames += other.frames;
-  frames_without_fix += other.frames_without_fix;
-  limited_commands += other.limited_commands;
-  limit_violations += other.limit_violations;
-}
-
 ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1,
                            const Eigen::Vector3d& release_o,
                            std::function<void(const AttemptTruth&)> on_judged)
@@ -49,17 +38,7 @@ void ServoWitness::endAttempt() {
 }
 
 void ServoWitness::onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) {
-  if (report.state != VisionState::kSearching) {
-    ++statistics_.frames;
-    statistics_.frames_without_fix += report.fix ? 0 : 1;
-  }
-  if (report.fix) {
-    statistics_.nis.add(report.nis);
-    statistics_.frame_age_s.add(age_s);
-  }
-  if (report.error_100ms_m) {
-    statistics_.prediction_error_m.add(*report.error_100ms_m);
-  }
+  countFrame(report, age_s, statistics_);
   if (report.fix) {
     seen_fMo_ = fMc1_ * report.fix->c1Mo;
   }
@@ -118,8 +97,7 @@ void ServoWitness::onCommand(const ArmState& state, const TaskCommand& command) 
   if (recording_) {
     recording_->addRobot(state.time, state.position, rx60::forward(rx60::rx60(), state.position));
   }
-  statistics_.limited_commands += command.limited ? 1 : 0;
-  checkLimits(state);
+  countCommand(state, command, limits_, statistics_);
   if (command.phase == TaskPhase::kLower) {
     const Eigen::Vector3d ring_f = cell.fMr.translation();
     double nearest = 1e9;
@@ -146,14 +124,6 @@ void ServoWitness::judge(Time now, const CellTruth& cell) {
   judged_ = true;
   attempt_.hanging = cell.rings[attempt_.ring].hanging;
   on_judged_(attempt_);
-}
-
-void ServoWitness::checkLimits(const ArmState& state) {
-  const bool outside = ((state.position - limits_.lower).array() < 0.0).any() ||
-                       ((limits_.upper - state.position).array() < 0.0).any();
-  // Velocity is differentiated position: allow its rounding.
-  const bool fast = (state.velocity.cwiseAbs() - limits_.velocity).maxCoeff() > 1e-6;
-  statistics_.limit_violations += outside || fast ? 1 : 0;
 }
 
 }  // namespace ringhook

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "camera/sequence_writer.h"
+#include "cycle/loop_statistics.h"
 #include "cycle/servo_loop.h"
-#include "cycle/statistics.h"
 #include "sim/cell_world.h"
 #include "sim/truth.h"
 
@@ -26,20 +26,6 @@ struct AttemptTruth {
   bool hanging = false;         ///< it hung on a hook two seconds later
   double peak_contact_n = 0.0;  ///< between hook and ring while gripped, greatest [N]
   Statistics insertion_error_m;  ///< true ring against true goal line of the tip, lowering [m]
-};
-
-/// What the loop itself could tell, summed over attempts.
-struct LoopStatistics {
-  Statistics prediction_error_m;  ///< fixes against predictions made 100 ms before, at o
-  Statistics frame_age_s;         ///< from mid-exposure to the arm state that was answered with it
-  Statistics nis;                 ///< of the fixes taken; chi-square of 6 if consistent
-  Statistics fix_error_m;         ///< fixes against the true hook (physics), at o [m]
-  int frames = 0;                 ///< taken while a hook was tracked
-  int frames_without_fix = 0;     ///< of these
-  int limited_commands = 0;       ///< bent by a limit
-  int limit_violations = 0;       ///< arm states outside joint range or nominal speed
-
-  void merge(const LoopStatistics& other);
 };
 
 class ServoWitness : public LoopObserver {
@@ -71,7 +57,6 @@ class ServoWitness : public LoopObserver {
   void recordFrame(const StereoFrame& frame, const std::optional<Pose>& fMo);
   [[nodiscard]] std::optional<Pose> trueHook(Time time, const Pose& near_fMo) const;
   void judge(Time now, const CellTruth& cell);
-  void checkLimits(const ArmState& state);
 
   const CellWorld& world_;
   Pose fMc1_;

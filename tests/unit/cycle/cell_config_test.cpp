@@ -45,7 +45,7 @@ TEST(CellConfig, DefaultCellSaysWhatItsFileSays) {
   EXPECT_EQ(cell.name, "default simulated cell");
   EXPECT_EQ(cell.file, test::defaultCellFile());
   EXPECT_EQ(cell.rig, folder / "rig-sim.yaml");
-  EXPECT_EQ(cell.scenario, folder / "scenarios/easy.yaml");
+  EXPECT_EQ(cell.devices.scenario, folder / "scenarios/easy.yaml");
   EXPECT_EQ(cell.hook.plate, fs::path(RINGHOOK_SOURCE_DIR "/datasets/models/hook/marker.yaml"));
   EXPECT_EQ(cell.hook.model, fs::path(RINGHOOK_SOURCE_DIR "/datasets/models/hook/hook.cao"));
   EXPECT_EQ(cell.hook.pivot_o, Eigen::Vector3d(0.0, -0.0263, 0.450));
@@ -196,13 +196,48 @@ TEST(CellConfig, SectionThatIsNoMappingIsRefused) {
   EXPECT_THAT(loadError(file), AllOf(HasSubstr(file.string()), HasSubstr("line 20: field arm")));
 }
 
-TEST(CellConfig, DevicesThatAreNotSimulatedAreRefused) {
+TEST(CellConfig, DevicesOfAnUnknownKindAreRefused) {
   const ScratchFolder scratch;
   std::string text = test::defaultCellText();
   replaceLine(text, "kind:", "  kind: hydraulic");
   const fs::path file = scratch.write("cell.yaml", text);
-  EXPECT_THAT(loadError(file), AllOf(HasSubstr(file.string()), HasSubstr("devices.kind"),
-                                     HasSubstr("expected simulated"), HasSubstr("hydraulic")));
+  EXPECT_THAT(loadError(file),
+              AllOf(HasSubstr(file.string()), HasSubstr("devices.kind"),
+                    HasSubstr("expected simulated or network"), HasSubstr("hydraulic")));
+}
+
+TEST(CellConfig, DevicesOnANetworkAreWhatTheirFileSays) {
+  const CellConfig cell = loadCellConfig(RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml");
+  EXPECT_EQ(cell.devices.kind, DeviceKind::kNetwork);
+  EXPECT_EQ(cell.devices.cameras.left, "127.0.0.1");
+  EXPECT_EQ(cell.devices.cameras.right, "127.0.0.2");
+  EXPECT_TRUE(cell.devices.cameras.host_clock);
+  EXPECT_EQ(cell.devices.cameras.trigger, "free-run");
+  EXPECT_DOUBLE_EQ(cell.devices.cameras.exposure_s, 0.0005);
+  EXPECT_EQ(cell.devices.cameras.packet_bytes, 8000);
+  EXPECT_EQ(cell.devices.arm.address, "127.0.0.1");
+  EXPECT_EQ(cell.devices.arm.motion_port, 11000);
+  EXPECT_EQ(cell.devices.arm.gripper_module, 2);
+  EXPECT_TRUE(cell.devices.arm.gripper_closes_on);
+  EXPECT_EQ(cell.vision.window_lag_frames, 3);
+}
+
+TEST(CellConfig, BadDevicesOnANetworkAreNamed) {
+  const std::string good = test::textOf(RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml");
+  const ScratchFolder scratch;
+  const auto refusal = [&](const std::string& key, const std::string& line) {
+    std::string text = good;
+    replaceLine(text, key, line);
+    return loadError(scratch.write("cell.yaml", text));
+  };
+  EXPECT_THAT(refusal("right:", "    right: 127.0.0.1"), HasSubstr("devices.cameras.right"));
+  EXPECT_THAT(refusal("clock:", "    clock: sundial"), HasSubstr("expected host or own"));
+  EXPECT_THAT(refusal("exposure_us:", "    exposure_us: 0"), HasSubstr("exposure_us"));
+  EXPECT_THAT(refusal("gripper_closes:", "    gripper_closes: maybe"),
+              HasSubstr("expected on or off"));
+  EXPECT_THAT(refusal("address:", ""), HasSubstr("field devices.arm.address is missing"));
+  EXPECT_THAT(refusal("gripper_pin:", "    gripper_pin: 0\n    motion_port: 70000"),
+              HasSubstr("devices.arm.motion_port"));
 }
 
 TEST(CellConfig, WhatIsNoYamlIsRefusedWithItsLine) {

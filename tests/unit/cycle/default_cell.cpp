@@ -5,13 +5,15 @@
 
 namespace ringhook::test {
 
-std::filesystem::path defaultCellFile() { return RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml"; }
-
-std::string defaultCellText() {
+std::string textOf(const std::filesystem::path& file) {
   std::ostringstream text;
-  text << std::ifstream(defaultCellFile()).rdbuf();
+  text << std::ifstream(file).rdbuf();
   return text.str();
 }
+
+std::filesystem::path defaultCellFile() { return RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml"; }
+
+std::string defaultCellText() { return textOf(defaultCellFile()); }
 
 CellConfig defaultCell() { return loadCellConfig(defaultCellFile()); }
 

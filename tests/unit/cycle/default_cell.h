@@ -10,6 +10,7 @@
 
 namespace ringhook::test {
 
+std::string textOf(const std::filesystem::path& file);
 std::filesystem::path defaultCellFile();
 std::string defaultCellText();
 CellConfig defaultCell();

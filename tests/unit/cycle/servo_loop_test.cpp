@@ -126,7 +126,8 @@ class LoopBench {
   /// Runs until something leaves; null if nothing does.
   std::exception_ptr run() {
     try {
-      (void)runAttempt(camera_, arm, vision_, task_, observer_, stop);
+      VisionInTurn vision(camera_, vision_, observer_);
+      (void)runAttempt(vision, arm, task_, observer_, stop);
     } catch (...) {
       return std::current_exception();
     }
