@@ -5,15 +5,7 @@
 namespace ringhook {
 namespace {
 
-/// Luma of ITU-R BT.601.
-void toGrey(const ColourImage& colour, std::vector<float>& grey) {
-  grey.resize(colour.pixels.size() / 4);
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    const std::uint8_t* p = &colour.pixels[4 * i];
-    grey[i] = 0.299F * static_cast<float>(p[0]) + 0.587F * static_cast<float>(p[1]) +
-              0.114F * static_cast<float>(p[2]);
-  }
-}
+constexpr float kGreyStep = 255.0F / Renderer::kWhite;
 
 /// The lens's blur: weights 1 6 1 / 8 along both axes, a standard deviation of half a pixel.
 /// The image's outermost pixels stay as they are.
@@ -41,6 +33,11 @@ void blur(int width, int height, std::vector<float>& grey, std::vector<float>& s
   }
 }
 
+std::size_t indexOf(const Window& window, int x, int y) {
+  return static_cast<std::size_t>(y - window.y) * static_cast<std::size_t>(window.width) +
+         static_cast<std::size_t>(x - window.x);
+}
+
 /// Bilinear interpolation; (x, y) from the first pixel's centre, one pixel off every border.
 float sampleAt(const std::vector<float>& grey, int width, float x, float y) {
   const int column = static_cast<int>(x);
@@ -56,33 +53,79 @@ float sampleAt(const std::vector<float>& grey, int width, float x, float y) {
 
 }  // namespace
 
-CameraEye::CameraEye(const CameraModel& camera, const Pose& wMc) : lens_(camera), wMc_(wMc) {}
+CameraEye::CameraEye(const CameraModel& camera, const Pose& fMc)
+    : lens_(camera),
+      eye_{fMc, lens_.focalPx()},
+      plane_(lens_.planeWindow({0, 0, camera.width, camera.height})) {}
 
-GrayImage CameraEye::expose(Renderer& renderer, const SensorNoise& sensor, const ExposureKey& key,
-                            const Window& window) {
-  const Window plane = lens_.planeWindow(window);
-  renderer.draw({wMc_, lens_.focalPx(), plane}, drawn_);
-  toGrey(drawn_, grey_);
-  blur(drawn_.width, drawn_.height, grey_, scratch_);
-  GrayImage image(window.width, window.height);
-  develop(sensor, key, window, plane, image);
-  return image;
+void CameraEye::begin(const Window& window, const std::vector<Window>& moving) {
+  window_ = window;
+  seen_ = lens_.planeWindow(window);
+  begun_ = false;
+  moving_.clear();
+  for (const Window& part : moving) {
+    const Window inside = intersect(part, seen_);
+    if (!inside.empty()) {
+      moving_.push_back(inside);
+    }
+  }
 }
 
-void CameraEye::develop(const SensorNoise& sensor, const ExposureKey& key, const Window& window,
-                        const Window& plane, GrayImage& image) {
-  samples_.resize(static_cast<std::size_t>(window.width));
-  light_.resize(static_cast<std::size_t>(window.width));
-  const auto left = static_cast<float>(plane.x);
-  const auto top = static_cast<float>(plane.y);
-  for (int y = 0; y < window.height; ++y) {
-    lens_.row(window.x, window.y + y, samples_);
+void CameraEye::collect(Renderer& renderer, double weight) {
+  if (!begun_) {
+    drawWhole(renderer, weight);
+    begun_ = true;
+    return;
+  }
+  for (const Window& part : moving_) {
+    addPart(renderer, part, weight);
+  }
+}
+
+void CameraEye::drawWhole(Renderer& renderer, double weight) {
+  renderer.drawGrey(eye_, plane_, seen_, drawn_);
+  grey_.resize(drawn_.size());
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    grey_[i] = kGreyStep * static_cast<float>(drawn_[i]);
+  }
+  for (const Window& part : moving_) {
+    for (int y = 0; y < part.height; ++y) {
+      float* row = &grey_[indexOf(seen_, part.x, part.y + y)];
+      for (int x = 0; x < part.width; ++x) {
+        row[x] *= static_cast<float>(weight);
+      }
+    }
+  }
+}
+
+void CameraEye::addPart(Renderer& renderer, const Window& part, double weight) {
+  renderer.drawGrey(eye_, plane_, part, drawn_);
+  const float step = kGreyStep * static_cast<float>(weight);
+  for (int y = 0; y < part.height; ++y) {
+    float* row = &grey_[indexOf(seen_, part.x, part.y + y)];
+    const std::uint16_t* from = &drawn_[indexOf(part, part.x, part.y + y)];
+    for (int x = 0; x < part.width; ++x) {
+      row[x] += step * static_cast<float>(from[x]);
+    }
+  }
+}
+
+GrayImage CameraEye::develop(const SensorNoise& sensor, const ExposureKey& key) {
+  blur(seen_.width, seen_.height, grey_, scratch_);
+  GrayImage image(window_.width, window_.height);
+  samples_.resize(static_cast<std::size_t>(window_.width));
+  light_.resize(static_cast<std::size_t>(window_.width));
+  const auto left = static_cast<float>(seen_.x);
+  const auto top = static_cast<float>(seen_.y);
+  for (int y = 0; y < window_.height; ++y) {
+    lens_.row(window_.x, window_.y + y, samples_);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const LensMap::Sample& s = samples_[i];
-      light_[i] = s.light * sampleAt(grey_, plane.width, s.x - left, s.y - top);
+      light_[i] = s.light * sampleAt(grey_, seen_.width, s.x - left, s.y - top);
     }
-    sensor.expose(key, window.x, window.y + y, light_.data(), window.width, image.row(y));
+    sensor.expose(key, window_.x, window_.y + y, light_.data(), window_.width, image.row(y));
   }
+  return image;
 }
 
 }  // namespace ringhook

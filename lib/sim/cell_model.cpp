@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "sim/arm_visuals.h"
 #include "sim/cell_visuals.h"
 #include "sim/hook_body.h"
 
@@ -109,14 +110,15 @@ std::string jaw(const char* name, double side, const CellOptions& options) {
 std::string gripper(const CellOptions& options) {
   const double palm = options.gripper.rim_distance - 0.024;  // ends 2 mm before the jaws' roots
   return box({0.0, 0.0, 0.5 * palm}, {0.018, 0.020, 0.5 * palm},
-             std::string(kToolContact) + " material=\"gripper\"") +
-         jaw("upper", -1.0, options) + jaw("lower", 1.0, options);
+             std::string(kToolContact) + kNotDrawn) +
+         gripperVisualXml(palm) + jaw("upper", -1.0, options) + jaw("lower", 1.0, options);
 }
 
 std::string arm(const CellOptions& options) {
   std::ostringstream text;
-  text << "<geom type=\"cylinder\" material=\"arm\" size=\"0.09 0.11\" pos=\"0 0 0.11\""
-       << kToolContact << "/>\n";
+  text << "<geom type=\"cylinder\" size=\"0.09 0.11\" pos=\"0 0 0.11\"" << kNotDrawn << kToolContact
+       << "/>\n"
+       << baseVisualXml();
   for (int i = 0; i < 6; ++i) {
     const Link& link = kLinks[i];
     const double inertia =
@@ -126,7 +128,8 @@ std::string arm(const CellOptions& options) {
          << "\"/>\n"
          << inertial(link.mass, 0.5 * link.end, inertia * Eigen::Matrix3d::Identity())
          << capsule(Eigen::Vector3d::Zero(), link.end + Eigen::Vector3d(0.0, 0.0, 1e-4),
-                    link.radius, std::string(kToolContact) + " material=\"arm\"");
+                    link.radius, std::string(kToolContact) + kNotDrawn)
+         << linkVisualXml(i + 1);
   }
   text << gripper(options);
   for (int i = 0; i < 6; ++i) {
@@ -242,8 +245,9 @@ std::string solverSettings(const CellOptions& options) {
   return text.str();
 }
 
-std::string looks() {
-  return "<visual>" + visualSettingsXml() + "</visual>\n<asset>" + visualAssetXml() + "</asset>\n";
+std::string looks(const CellOptions& options) {
+  return "<visual>" + visualSettingsXml() + "</visual>\n<asset>" + visualAssetXml(options.scene) +
+         "</asset>\n";
 }
 
 }  // namespace
@@ -262,10 +266,10 @@ Pose magazinePose(int index) {
 std::string cellModelXml(const CellOptions& options, const CellDraw& draw) {
   std::ostringstream text;
   text << "<mujoco model=\"ringhook cell\">\n<compiler angle=\"radian\"/>\n"
-       << solverSettings(options) << looks() << "<worldbody>\n"
+       << solverSettings(options) << looks(options) << "<worldbody>\n"
        << "<geom name=\"floor\" type=\"plane\" size=\"3 3 0.1\" material=\"floor\"" << kFloorContact
        << "/>\n"
-       << sceneVisualXml(options.seed) << arm(options) << belt(options, draw);
+       << sceneVisualXml(options.scene, options.seed) << arm(options) << belt(options, draw);
   for (int i = 0; i < options.ring.count; ++i) {
     text << ring(options.ring, i);
   }

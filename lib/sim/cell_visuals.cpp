@@ -3,65 +3,111 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <random>
+#include <iomanip>
 #include <sstream>
-#include <vector>
 
+#include "sim/arm_visuals.h"
+#include "sim/cell_model.h"
+#include "sim/clutter.h"
 #include "sim/hook_shape.h"
-#include "sim/tag_pattern.h"
+#include "sim/scene_dice.h"
+#include "sim/visual_geom.h"
+#include "sim/wall_picture.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kTexel = 0.0005;  // of the printed plate [m]
-constexpr int kWallTexels = 256;   // along each side of the wall
+using Eigen::Vector3d;
 
-TagPlateFace plateFace() {
+constexpr double kTexel = 0.001;  // of the printed plates [m]
+constexpr int kBoardBorder = 1;   // white squares around the checkerboard
+constexpr double kBoardHalfThickness = 0.003;
+
+// MuJoCo wants a mass in every body, even in one that never moves.
+constexpr const char* kSomeMass = R"(<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)"
+                                  "\n";
+
+TagPlateFace hookPlateFace() {
   const HookShape shape;
   return {shape.plate_width, shape.plate_height, shape.tag_size, shape.tag_distance, {0, 1}};
 }
 
-/// Grey value at a texel (column, row) of a texture.
-using Painter = std::function<int(int, int)>;
+bool hasBoard(const BoardOptions& board) { return board.columns > 0 && board.rows > 0; }
 
-void paint(mjModel& model, const char* name, const Painter& painter) {
+/// One texel a square.
+GrayImage boardPicture(const BoardOptions& board) {
+  GrayImage picture(board.columns + 1 + 2 * kBoardBorder, board.rows + 1 + 2 * kBoardBorder, 255);
+  for (int y = kBoardBorder; y < picture.height - kBoardBorder; ++y) {
+    for (int x = kBoardBorder; x < picture.width - kBoardBorder; ++x) {
+      picture.row(y)[x] = (x + y) % 2 == 0 ? 0 : 255;
+    }
+  }
+  return picture;
+}
+
+std::string boardXml(const BoardOptions& board) {
+  Pose tMb(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));  // printed side is the box's +z
+  tMb.translation() = Vector3d{0.5 * (board.columns - 1) * board.square,
+                               0.5 * (board.rows - 1) * board.square, kBoardHalfThickness};
+  const GrayImage face = boardPicture(board);
+  return visualBox(
+      board.fMt * tMb,
+      {0.5 * face.width * board.square, 0.5 * face.height * board.square, kBoardHalfThickness},
+      "board");
+}
+
+std::string textureXml(const std::string& name, int width, int height) {
+  std::ostringstream text;
+  text << "<texture name=\"" << name << "\" type=\"2d\" builtin=\"flat\" width=\"" << width
+       << "\" height=\"" << height << "\" rgb1=\"1 1 1\"/>\n";
+  return text.str();
+}
+
+std::string materialXml(const char* name, const char* look, double specular, double shininess) {
+  std::ostringstream text;
+  text << "<material name=\"" << name << "\" " << look << " specular=\"" << specular
+       << "\" shininess=\"" << shininess << "\"/>\n";
+  return text.str();
+}
+
+/// Printed patterns reflect between ink's and paper's share of the light.
+GrayImage inked(GrayImage picture) {
+  constexpr int kInk = 22;
+  constexpr int kPaper = 235;
+  for (std::uint8_t& value : picture.pixels) {
+    value = value > 0 ? kPaper : kInk;
+  }
+  return picture;
+}
+
+void paint(mjModel& model, const char* name, const GrayImage& picture) {
   const int id = mj_name2id(&model, mjOBJ_TEXTURE, name);
-  if (id < 0) {
+  if (id < 0 || model.tex_width[id] != picture.width || model.tex_height[id] != picture.height) {
     return;
   }
   mjtByte* texel = model.tex_rgb + model.tex_adr[id];
-  for (int y = 0; y < model.tex_height[id]; ++y) {
-    for (int x = 0; x < model.tex_width[id]; ++x, texel += 3) {
-      std::fill_n(texel, 3, static_cast<mjtByte>(std::clamp(painter(x, y), 0, 255)));
-    }
+  for (const std::uint8_t value : picture.pixels) {
+    texel = std::fill_n(texel, 3, value);
   }
 }
 
-/// Smoothed noise of mean 0, periodic over the texture: a mildly stained wall.
-std::vector<double> stains(std::uint64_t seed) {
-  std::mt19937_64 bits(seed);
-  constexpr int n = kWallTexels;
-  std::vector<double> field(static_cast<std::size_t>(n * n));
-  for (double& value : field) {
-    value = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
-  }
-  const auto at = [](int x, int y) {
-    return static_cast<std::size_t>((y & (n - 1)) * n + (x & (n - 1)));
-  };
-  for (const int reach : {1, 2, 4}) {
-    std::vector<double> smooth(field.size());
-    for (int y = 0; y < n; ++y) {
-      for (int x = 0; x < n; ++x) {
-        smooth[at(x, y)] =
-            0.2 * (field[at(x, y)] + field[at(x + reach, y)] + field[at(x - reach, y)] +
-                   field[at(x, y + reach)] + field[at(x, y - reach)]);
-      }
-    }
-    field = std::move(smooth);
-  }
-  return field;
+/// The rod on which the feeder's rings wait.
+std::string magazineXml() {
+  const Vector3d foot(magazinePose(0).translation().x(), magazinePose(0).translation().y(), 0.0);
+  return visualCylinder(foot, foot + Vector3d(0, 0, 0.02), 0.06, "arm_dark") +
+         visualCylinder(foot + Vector3d(0, 0, 0.02), foot + Vector3d(0, 0, 0.70), 0.006, "metal");
+}
+
+std::string occluderXml(const OccluderOptions& options, int index) {
+  constexpr double kTop = 1.20;
+  constexpr double kBottom = 0.35;
+  const double radius = 0.5 * options.width;
+  std::ostringstream text;
+  text << "<body name=\"occluder" << index << "\" mocap=\"true\" pos=\"0 0 -5\">\n"
+       << kSomeMass << visualCylinder({0, 0, kBottom}, {0, 0, kTop}, radius, "metal")
+       << visualCylinder({0, 0, kBottom - 0.02}, {0, 0, kBottom}, 1.6 * radius, "arm_dark")
+       << visualBox({0, 0, kTop}, {0.03, 0.06, 0.02}, "belt") << "</body>\n";
+  return text.str();
 }
 
 }  // namespace
@@ -69,51 +115,55 @@ std::vector<double> stains(std::uint64_t seed) {
 std::string visualSettingsXml() {
   return R"(<headlight active="0"/>
 <global offwidth="16" offheight="16"/>
-<quality shadowsize="0" offsamples="0" numslices="16" numstacks="8" numquads="4"/>
+<quality shadowsize="0" offsamples="0" numslices="4" numstacks="4" numquads="1"/>
 )";
 }
 
-std::string visualAssetXml() {
-  const GrayImage face = drawTagPlate(plateFace(), kTexel);
-  std::ostringstream text;
-  text << "<texture name=\"tag_plate\" type=\"2d\" builtin=\"flat\" width=\"" << face.width
-       << "\" height=\"" << face.height << "\" rgb1=\"1 1 1\"/>\n"
-       << "<texture name=\"wall\" type=\"2d\" builtin=\"flat\" width=\"" << kWallTexels
-       << "\" height=\"" << kWallTexels << "\" rgb1=\"1 1 1\"/>\n"
-       << R"(<material name="tag_plate" texture="tag_plate" specular="0" shininess="0"/>
-<material name="wall" texture="wall" specular="0" shininess="0"/>
-<material name="floor" rgba="0.30 0.29 0.28 1" specular="0" shininess="0"/>
-<material name="steel" rgba="0.74 0.75 0.77 1" specular="0.3" shininess="0.3"/>
-<material name="arm" rgba="0.85 0.42 0.08 1" specular="0.2" shininess="0.4"/>
-<material name="gripper" rgba="0.22 0.23 0.25 1" specular="0.2" shininess="0.3"/>
-<material name="ring" rgba="0.80 0.81 0.83 1" specular="0.4" shininess="0.5"/>
-<material name="belt" rgba="0.16 0.17 0.19 1" specular="0.1" shininess="0.2"/>
-<material name="plate" rgba="0.90 0.90 0.90 1" specular="0" shininess="0"/>
-)";
-  return text.str();
+std::string visualAssetXml(const SceneOptions& options) {
+  const double s = options.specular;
+  const GrayImage hook = drawTagPlate(hookPlateFace(), kTexel);
+  const GrayImage gripper = drawTagPlate(gripperPlateFace(), kTexel);
+  const int wall = wallTexels(options.wall);
+  std::string text = textureXml("print_hook", hook.width, hook.height) +
+                     textureXml("print_gripper", gripper.width, gripper.height) +
+                     textureXml("wall", wall, wall);
+  if (hasBoard(options.board)) {
+    const GrayImage board = boardPicture(options.board);
+    text += textureXml("print_board", board.width, board.height) +
+            materialXml("board", R"(texture="print_board")", 0.0, 0.0);
+  }
+  return text + materialXml("tag_plate", R"(texture="print_hook")", 0.0, 0.0) +
+         materialXml("gripper_plate", R"(texture="print_gripper")", 0.0, 0.0) +
+         materialXml("wall", R"(texture="wall" texrepeat="2 1.25")", 0.0, 0.0) +
+         materialXml("floor", R"(rgba="0.30 0.29 0.28 1")", 0.0, 0.0) +
+         materialXml("steel", R"(rgba="0.62 0.63 0.65 1")", 0.22 * s, 0.30) +
+         materialXml("metal", R"(rgba="0.55 0.56 0.58 1")", 0.25 * s, 0.45) +
+         materialXml("arm", R"(rgba="0.85 0.42 0.08 1")", 0.06 * s, 0.40) +
+         materialXml("arm_dark", R"(rgba="0.13 0.13 0.14 1")", 0.05 * s, 0.30) +
+         materialXml("paint", R"(rgba="0.35 0.42 0.40 1")", 0.04 * s, 0.20) +
+         materialXml("gripper", R"(rgba="0.22 0.23 0.25 1")", 0.08 * s, 0.30) +
+         materialXml("ring", R"(rgba="0.68 0.69 0.71 1")", 0.30 * s, 0.50) +
+         materialXml("belt", R"(rgba="0.16 0.17 0.19 1")", 0.03 * s, 0.20);
 }
 
-std::string sceneVisualXml(std::uint64_t seed) {
-  std::mt19937_64 bits(seed);
-  const auto spread = [&bits](double mean, double by) {
-    return mean + by * (2.0 * static_cast<double>(bits() >> 11U) * 0x1p-53 - 1.0);
-  };
-  const double main_lamp = spread(0.62, 0.05);
-  const double side_lamp = spread(0.22, 0.04);
-  const double tone = spread(0.50, 0.05);
-  std::ostringstream text;
-  const auto lamp = [&text](const char* direction, double brightness, double ambient) {
-    text << "<light directional=\"true\" castshadow=\"false\" pos=\"0 0 3\" dir=\"" << direction
-         << "\" diffuse=\"" << brightness << ' ' << brightness << ' ' << brightness
-         << "\" ambient=\"" << ambient << ' ' << ambient << ' ' << ambient
-         << "\" specular=\"0.2 0.2 0.2\"/>\n";
-  };
-  lamp("-0.85 0.25 -0.45", main_lamp, 0.20);
-  lamp("-0.50 -0.80 -0.35", side_lamp, 0.0);
-  text << "<geom name=\"wall\" type=\"box\" pos=\"-0.95 0 1.2\" quat=\"0.5 0.5 0.5 0.5\""
-       << " size=\"4 2.5 0.01\" contype=\"0\" conaffinity=\"0\" material=\"wall\" rgba=\"" << tone
-       << ' ' << 0.94 * tone << ' ' << 0.86 * tone << " 1\"/>\n";
-  return text.str();
+std::string sceneVisualXml(const SceneOptions& options, std::uint64_t cell_seed) {
+  SceneDice dice(options, cell_seed, SceneStream::wall_tone);
+  const double tone = dice.between(0.45, 0.55);
+  std::ostringstream colour;
+  colour << std::setprecision(17) << tone << ' ' << 0.94 * tone << ' ' << 0.86 * tone << " 1";
+  Pose fMwall(Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5));  // its own z towards the cameras
+  fMwall.translation() = Vector3d(-0.95, 0.0, 1.2);
+  std::string text = std::string("<body name=\"scenery\">\n") + kSomeMass + magazineXml() +
+                     visualBox(fMwall, {4.0, 2.5, 0.01}, "wall", colour.str()) +
+                     clutterXml(options, cell_seed);
+  if (hasBoard(options.board)) {
+    text += boardXml(options.board);
+  }
+  text += "</body>\n";
+  for (int i = 0; i < options.occluder.count; ++i) {
+    text += occluderXml(options.occluder, i);
+  }
+  return text;
 }
 
 std::string tagPlateXml() {
@@ -121,26 +171,16 @@ std::string tagPlateXml() {
   const HookShape shape;
   const double back = shape.bar_thickness / 2.0;
   const double half = (shape.plate_face_x - back) / 2.0;
-  std::ostringstream text;
-  text << "<geom type=\"box\" mass=\"0\" contype=\"0\" conaffinity=\"0\" pos=\"" << back + half
-       << ' ' << -shape.arc_radius << ' ' << shape.plate_centre_z
-       << "\" quat=\"0.5 0.5 0.5 0.5\" size=\"" << shape.plate_width / 2.0 << ' '
-       << shape.plate_height / 2.0 << ' ' << half << "\" material=\"tag_plate\"/>\n";
-  return text.str();
+  Pose oMbox(Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5));
+  oMbox.translation() = Vector3d(back + half, -shape.arc_radius, shape.plate_centre_z);
+  return visualBox(oMbox, {shape.plate_width / 2.0, shape.plate_height / 2.0, half}, "tag_plate");
 }
 
-void paintTextures(mjModel& model, std::uint64_t seed) {
-  constexpr int kInk = 22;  // printed black still reflects
-  constexpr int kPaper = 235;
-  constexpr int kWallMean = 205;
-  constexpr double kWallContrast = 400.0;
-  const GrayImage face = drawTagPlate(plateFace(), kTexel);
-  paint(model, "tag_plate", [&](int x, int y) { return face.row(y)[x] > 0 ? kPaper : kInk; });
-  const std::vector<double> field = stains(seed);
-  paint(model, "wall", [&](int x, int y) {
-    const double stain = field[static_cast<std::size_t>(y * kWallTexels + x)];
-    return kWallMean + static_cast<int>(std::lround(kWallContrast * stain));
-  });
+void paintTextures(mjModel_& model, const SceneOptions& options, std::uint64_t cell_seed) {
+  paint(model, "print_hook", inked(drawTagPlate(hookPlateFace(), kTexel)));
+  paint(model, "print_gripper", inked(drawTagPlate(gripperPlateFace(), kTexel)));
+  paint(model, "print_board", inked(boardPicture(options.board)));
+  paint(model, "wall", wallPicture(options, cell_seed));
 }
 
 }  // namespace ringhook

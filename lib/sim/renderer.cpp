@@ -3,209 +3,229 @@
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <string>
+#include <optional>
 
-#include "core/error.h"
 #include "sim/egl_context.h"
+#include "sim/gl_canvas.h"
+#include "sim/shaders.h"
+#include "sim/solid_batches.h"
 
 namespace ringhook {
 namespace {
 
-constexpr int kSmallSide = 640;   // buffer for search windows [px]
-constexpr int kLargeSide = 1152;  // buffer for tiles of larger rectangles [px]
-constexpr int kSamples = 4;
-constexpr int kMaxGeoms = 4000;
-constexpr double kNear = 0.05;  // [m]
-constexpr double kFar = 8.0;    // [m]
+constexpr double kNear = 0.10;       // [m]
+constexpr double kFar = 8.0;         // [m]
+constexpr int kSmallestMap = 16;     // shadow map where none is wanted [px]
+constexpr double kSheetReach = 1.0;  // half side from which on a thing is wall or floor [m]
+// What the lamps' shadows have to cover, in f [m].
+const Eigen::Vector3d kShadowFrom(-1.0, -1.3, 0.0);
+const Eigen::Vector3d kShadowTo(1.1, 1.3, 1.40);
+// ITU-R BT.601 luma of linear colour; white is Renderer::kWhite of 65535.
+constexpr std::array<float, 4> kGrey{0.299F, 0.587F, 0.114F, Renderer::kWhite / 65535.0F};
+constexpr std::array<float, 4> kColour{0.0F, 0.0F, 0.0F, 0.0F};
 
-void setVector(float* to, const Eigen::Vector3d& from) {
-  for (int i = 0; i < 3; ++i) {
-    to[i] = static_cast<float>(from[i]);
-  }
+/// Clip coordinates of points in f that are given from the camera's place. Rows go downwards on
+/// the canvas, from the plane's first one.
+Eigen::Matrix4d clipFromEye(const Pinhole& eye, const Window& plane) {
+  const double f = eye.focal_px;
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  clip(0, 0) = 2.0 * f / plane.width;
+  clip(0, 2) = -2.0 * (plane.x - 0.5) / plane.width - 1.0;
+  clip(1, 1) = 2.0 * f / plane.height;
+  clip(1, 2) = -2.0 * (plane.y - 0.5) / plane.height - 1.0;
+  clip(2, 2) = (kFar + kNear) / (kFar - kNear);
+  clip(2, 3) = -2.0 * kFar * kNear / (kFar - kNear);
+  clip(3, 2) = 1.0;
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.topLeftCorner<3, 3>() = eye.fMc.linear().transpose();
+  return clip * turn;
 }
 
-/// MuJoCo gives the frustum the viewport's aspect about frustum_center: square pixels come out
-/// exactly. A pixel reaches half a pixel to each side of its centre.
-mjvGLCamera glCamera(const PlaneView& view) {
-  const double scale = kNear / view.focal_px;
-  const Window& w = view.window;
-  mjvGLCamera camera{};
-  setVector(camera.pos, view.wMc.translation());
-  setVector(camera.forward, view.wMc.linear().col(2));
-  setVector(camera.up, -view.wMc.linear().col(1));
-  camera.frustum_center = static_cast<float>(scale * (w.x - 0.5 + 0.5 * w.width));
-  camera.frustum_top = static_cast<float>(-scale * (w.y - 0.5));
-  camera.frustum_bottom = static_cast<float>(-scale * (w.y - 0.5 + w.height));
-  camera.frustum_near = static_cast<float>(kNear);
-  camera.frustum_far = static_cast<float>(kFar);
-  return camera;
+/// Clip coordinates of points in f as the key lamp sees them: a box around the cell, -1 to 1.
+Eigen::Matrix4d clipFromKey(const Eigen::Vector3d& towards_key) {
+  const Eigen::Vector3d z = -towards_key;
+  const Eigen::Vector3d x = z.unitOrthogonal();
+  Eigen::Matrix3d turn;
+  turn << x.transpose(), z.cross(x).transpose(), z.transpose();
+  const Eigen::Vector3d middle = turn * (0.5 * (kShadowFrom + kShadowTo));
+  const Eigen::Vector3d half = turn.cwiseAbs() * (0.5 * (kShadowTo - kShadowFrom));
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
+  clip.topLeftCorner<3, 3>() = half.cwiseInverse().asDiagonal() * turn;
+  clip.topRightCorner<3, 1>() = -middle.cwiseQuotient(half);
+  return clip;
 }
 
-GLuint attach(GLenum attachment, GLenum format, int samples, int side) {
-  GLuint buffer = 0;
-  glGenRenderbuffers(1, &buffer);
-  glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, side, side);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
-  return buffer;
+/// Wall and floor: behind everything, they hide no lamp.
+bool isSheet(const Solid& solid) {
+  const Eigen::Vector3d reach = solid.reach();
+  return (reach.array() > kSheetReach).count() >= 2;
 }
 
-/// A multisampled canvas and the plain one it is resolved into. Used with its context current.
-struct Canvas {
-  int side = 0;
-  GLuint drawn = 0;
-  GLuint resolved = 0;
-  std::array<GLuint, 3> buffers{};
+void setMatrix(unsigned program, const char* name, const Eigen::Matrix4d& matrix) {
+  const Eigen::Matrix4f values = matrix.cast<float>();
+  glUniformMatrix4fv(glGetUniformLocation(program, name), 1, GL_FALSE, values.data());
+}
 
-  void create(int side_px) {
-    side = side_px;
-    glGenFramebuffers(1, &drawn);
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn);
-    buffers[0] = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, kSamples, side);
-    buffers[1] = attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, kSamples, side);
-    glGenFramebuffers(1, &resolved);
-    glBindFramebuffer(GL_FRAMEBUFFER, resolved);
-    buffers[2] = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, 0, side);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw DeviceError("OpenGL refused a framebuffer of " + std::to_string(side) +
-                        " px with multisampling");
-    }
-  }
-  void destroy() {
-    glDeleteFramebuffers(1, &drawn);
-    glDeleteFramebuffers(1, &resolved);
-    glDeleteRenderbuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
-  }
-};
+void setVector(unsigned program, const char* name, const Eigen::Vector3d& v) {
+  glUniform3f(glGetUniformLocation(program, name), static_cast<float>(v.x()),
+              static_cast<float>(v.y()), static_cast<float>(v.z()));
+}
 
-/// Whether a ball about the geom may reach into the view (planes always may).
-bool mayShow(const mjvGeom& geom, const PlaneView& view) {
-  if (geom.modelrbound <= 0.0F) {
-    return true;
-  }
-  const Eigen::Vector3d centre_w =
-      Eigen::Vector3f(geom.pos[0], geom.pos[1], geom.pos[2]).cast<double>();
-  const Eigen::Vector3d p = view.wMc.inverse() * centre_w;
-  const auto radius = static_cast<double>(geom.modelrbound);
-  // Signed distance from the plane through the optical centre and an edge of the window.
-  const auto inside = [&](double across, double edge_px, double sign) {
-    const double slope = edge_px / view.focal_px;
-    return sign * (across - slope * p.z()) / std::sqrt(1.0 + slope * slope) > -radius;
-  };
-  const Window& w = view.window;
-  return inside(p.x(), w.x - 1, 1.0) && inside(p.x(), w.x + w.width, -1.0) &&
-         inside(p.y(), w.y - 1, 1.0) && inside(p.y(), w.y + w.height, -1.0);
+void setNumber(unsigned program, const char* name, double value) {
+  glUniform1f(glGetUniformLocation(program, name), static_cast<float>(value));
 }
 
 }  // namespace
 
 struct Renderer::Impl {
-  explicit Impl(const mjModel& m);
+  Impl(const mjModel_& model, const SceneLight& lamps, int width, int height);
   ~Impl();
-  /// Leaves in the scene only what the view may show.
-  void cull(const PlaneView& view);
-  void drawTile(const PlaneView& tile, int to_x, int to_y, ColourImage& image);
+  void setLight() const;
+  void drawShadows();
+  void drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane, const Window& part,
+                const std::array<float, 4>& grey_weights);
 
-  const mjModel& model;
+  /// Ends what needs the context while it is current.
+  struct Resources {
+    Resources(const mjModel_& model, int width, int height, int map_side)
+        : canvas(width, height, GL_R16),
+          shadows(map_side),
+          batches(model),
+          scene(linkProgram(sceneVertexShader(), sceneFragmentShader())),
+          depth(linkProgram(depthVertexShader(), depthFragmentShader())) {}
+    GlCanvas canvas;
+    GlDepthMap shadows;
+    SolidBatches batches;
+    unsigned scene;
+    unsigned depth;
+  };
+
   EglContext egl;
-  mjvScene scene{};
-  mjvOption option{};
-  mjrContext context{};
-  Canvas small;
-  Canvas large;
-  std::vector<mjvGeom> geoms;         // all that updateScene took over
-  std::vector<std::uint8_t> readout;  // bottom row first
+  SceneLight light;
+  Eigen::Matrix4d key_clip;
+  std::optional<Resources> gl;
+  std::vector<Solid> solids;
+  std::vector<char> wanted;
 };
 
-Renderer::Impl::Impl(const mjModel& m) : model(m) {
+Renderer::Impl::Impl(const mjModel_& model, const SceneLight& lamps, int width, int height)
+    : light(lamps), key_clip(clipFromKey(lamps.towards_key)) {
   const EglContext::Current current(egl);
-  mjv_defaultScene(&scene);
-  mjv_defaultOption(&option);
-  mjr_defaultContext(&context);
-  mjv_makeScene(&model, &scene, kMaxGeoms);
-  mjr_makeContext(&model, &context, mjFONTSCALE_50);
-  mjr_setBuffer(mjFB_OFFSCREEN, &context);
-  small.create(kSmallSide);
-  large.create(kLargeSide);
-  for (mjtByte& flag : scene.flags) {
-    flag = 0;
-  }
-  scene.flags[mjRND_CULL_FACE] = 1;
+  gl.emplace(model, width, height, std::max(kSmallestMap, light.shadow_map_px));
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  setLight();
 }
 
 Renderer::Impl::~Impl() {
   const EglContext::Current current(egl);
-  small.destroy();
-  large.destroy();
-  mjr_freeContext(&context);
-  mjv_freeScene(&scene);
+  gl.reset();
 }
 
-void Renderer::Impl::cull(const PlaneView& view) {
-  scene.ngeom = 0;
-  for (const mjvGeom& geom : geoms) {
-    if (mayShow(geom, view)) {
-      scene.geoms[scene.ngeom++] = geom;
-    }
+void Renderer::Impl::setLight() const {
+  const unsigned program = gl->scene;
+  glUseProgram(program);
+  setVector(program, "towards_key", light.towards_key);
+  setVector(program, "towards_fill", light.towards_fill);
+  glUniform4f(glGetUniformLocation(program, "lamps"), static_cast<float>(light.key),
+              static_cast<float>(light.fill), static_cast<float>(light.sky),
+              static_cast<float>(light.ground));
+  setNumber(program, "tubes", light.tubes);
+  // Half a metre of the cell is this much of the map; four places that far apart.
+  const double map_per_metre = 0.5 * key_clip.row(0).head<3>().norm();
+  setNumber(program, "shadow_reach",
+            light.shadow_map_px > 0 ? light.softness * map_per_metre : 0.0);
+  const double texel = 1.0 / (map_per_metre * gl->shadows.side());
+  setNumber(program, "shadow_bias", 1.5 * texel + light.softness);
+  glUniform1i(glGetUniformLocation(program, "print"), 0);
+  glUniform1i(glGetUniformLocation(program, "shadow_map"), 1);
+}
+
+void Renderer::Impl::drawShadows() {
+  gl->shadows.begin();
+  glUseProgram(gl->depth);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2.0F, 8.0F);
+  setMatrix(gl->depth, "to_clip", key_clip);
+  wanted.resize(solids.size());
+  std::transform(solids.begin(), solids.end(), wanted.begin(),
+                 [](const Solid& solid) { return isSheet(solid) ? 0 : 1; });
+  gl->batches.draw(solids, wanted, Eigen::Vector3d::Zero(), [](SolidBatches::TextureKind) {});
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glEnable(GL_CULL_FACE);
+}
+
+void Renderer::Impl::drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane,
+                              const Window& part, const std::array<float, 4>& grey_weights) {
+  // The projection spreads the plane over the whole canvas; its first pixels are the plane's.
+  const Window whole{plane.x, plane.y, canvas.width(), canvas.height()};
+  canvas.begin(part.x - plane.x, part.y - plane.y, part.width, part.height);
+  glFrontFace(GL_CW);  // rows go downwards
+  const unsigned program = gl->scene;
+  glUseProgram(program);
+  setMatrix(program, "to_clip", clipFromEye(eye, whole));
+  Eigen::Matrix4d from_eye = Eigen::Matrix4d::Identity();
+  from_eye.topRightCorner<3, 1>() = eye.fMc.translation();
+  Eigen::Matrix4d map_from_clip = 0.5 * Eigen::Matrix4d::Identity();
+  map_from_clip.topRightCorner<3, 1>().setConstant(0.5);
+  map_from_clip(3, 3) = 1.0;
+  setMatrix(program, "to_shadow", map_from_clip * key_clip * from_eye);
+  glUniform4fv(glGetUniformLocation(program, "grey_weights"), 1, grey_weights.data());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, gl->shadows.texture());
+  const PlaneBox limit{part.x - 1.0, part.y - 1.0, static_cast<double>(part.x + part.width),
+                       static_cast<double>(part.y + part.height)};
+  wanted.resize(solids.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const PlaneBox box = footprint(solids[i], eye, limit);
+    wanted[i] = box.left <= limit.right && box.right >= limit.left && box.top <= limit.bottom &&
+                        box.bottom >= limit.top
+                    ? 1
+                    : 0;
   }
+  const GLint kind = glGetUniformLocation(program, "texture_kind");
+  gl->batches.draw(solids, wanted, eye.fMc.translation(),
+                   [kind](SolidBatches::TextureKind texture) {
+                     glUniform1i(kind, static_cast<GLint>(texture));
+                   });
 }
 
-void Renderer::Impl::drawTile(const PlaneView& tile, int to_x, int to_y, ColourImage& image) {
-  const Window& w = tile.window;
-  const Canvas& canvas = std::max(w.width, w.height) <= kSmallSide ? small : large;
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas.drawn);
-  scene.camera[0] = glCamera(tile);
-  scene.camera[1] = scene.camera[0];
-  const mjrRect area{0, 0, w.width, w.height};
-  cull(tile);
-  mjr_render(area, &scene, &context);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas.drawn);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.resolved);
-  glBlitFramebuffer(0, 0, w.width, w.height, 0, 0, w.width, w.height, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas.resolved);
-  const std::size_t row_bytes = 4U * static_cast<std::size_t>(w.width);
-  readout.resize(row_bytes * static_cast<std::size_t>(w.height));
-  glReadPixels(0, 0, w.width, w.height, GL_RGBA, GL_UNSIGNED_BYTE, readout.data());
-  for (int y = 0; y < w.height; ++y) {
-    const std::size_t from = row_bytes * static_cast<std::size_t>(w.height - 1 - y);
-    const std::size_t to =
-        4U * (static_cast<std::size_t>(to_y + y) * static_cast<std::size_t>(image.width) +
-              static_cast<std::size_t>(to_x));
-    std::memcpy(&image.pixels[to], &readout[from], row_bytes);
-  }
-}
-
-Renderer::Renderer(const mjModel& model) : impl_(std::make_unique<Impl>(model)) {}
+Renderer::Renderer(const mjModel_& model, const SceneLight& light, int width, int height)
+    : impl_(std::make_unique<Impl>(model, light, width, height)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::updateScene(mjData& data) {
-  mjvCamera any;
-  mjv_defaultCamera(&any);
-  mjv_updateScene(&impl_->model, &data, &impl_->option, nullptr, &any, mjCAT_ALL, &impl_->scene);
-  impl_->geoms.assign(impl_->scene.geoms, impl_->scene.geoms + impl_->scene.ngeom);
+void Renderer::setScene(const std::vector<Solid>& solids) {
+  const EglContext::Current current(impl_->egl);
+  impl_->solids = solids;
+  if (impl_->light.shadow_map_px > 0) {
+    impl_->drawShadows();
+  }
 }
 
-void Renderer::draw(const PlaneView& view, ColourImage& image) {
+void Renderer::drawGrey(const Pinhole& eye, const Window& plane, const Window& part,
+                        std::vector<std::uint16_t>& grey) {
   const EglContext::Current current(impl_->egl);
-  const Window& w = view.window;
-  image.width = w.width;
-  image.height = w.height;
-  image.pixels.resize(4U * static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height));
-  const int side = std::max(w.width, w.height) <= kSmallSide ? kSmallSide : kLargeSide;
-  for (int y = 0; y < w.height; y += side) {
-    for (int x = 0; x < w.width; x += side) {
-      PlaneView tile = view;
-      tile.window = {w.x + x, w.y + y, std::min(side, w.width - x), std::min(side, w.height - y)};
-      impl_->drawTile(tile, x, y, image);
-    }
-  }
+  const GlCanvas& canvas = impl_->gl->canvas;
+  impl_->drawPart(canvas, eye, plane, part, kGrey);
+  grey.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+  canvas.read(part.x - plane.x, part.y - plane.y, part.width, part.height, GL_RED,
+              GL_UNSIGNED_SHORT, grey.data());
+}
+
+void Renderer::drawColour(const Pinhole& eye, const Window& plane, ColourImage& image) {
+  const EglContext::Current current(impl_->egl);
+  const GlCanvas canvas(plane.width, plane.height, GL_RGBA8);
+  impl_->drawPart(canvas, eye, plane, plane, kColour);
+  image.width = plane.width;
+  image.height = plane.height;
+  image.pixels.resize(4U * static_cast<std::size_t>(plane.width) *
+                      static_cast<std::size_t>(plane.height));
+  canvas.read(0, 0, plane.width, plane.height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
 }
 
 }  // namespace ringhook

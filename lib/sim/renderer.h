@@ -1,31 +1,27 @@
 #pragma once
 
 /// \file
-/// Draws the MuJoCo world as an exact pinhole camera sees it, one rectangle of the image plane at
-/// a time, without a display server. The image plane is an endless grid of square pixels whose
-/// pixel (0, 0) has its centre on the optical axis: x/z = i / f, y/z = j / f. A rectangle of it is
-/// drawn with an off-axis frustum, so a small window costs only its own pixels and shows the same
-/// samples as the full image. Antialiasing: 4 samples a pixel. No shadows, no reflections.
-/// Lens distortion, vignetting and noise are laid over it by lens_map.h and sensor_noise.h.
+/// Draws solids as exact pinhole cameras see them, without a display server. MuJoCo says where
+/// everything is; the picture is drawn here, since MuJoCo's own renderer redraws its shadow map for
+/// every rectangle, shows shadows only of what is in view, and lights vertices, not pixels.
+/// Antialiasing: 4 samples a pixel. One shadow map an instant serves both cameras.
+///
+/// The whole image plane is one canvas, and a window of it is the same draw with everything outside
+/// the window left out before shading: each pixel is the same, bit by bit, whatever the window.
+/// Brightness is linear. Lens distortion, vignetting and noise are laid over it by lens_map.h and
+/// sensor_noise.h.
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/image.h"
-#include "core/pose.h"
+#include "sim/scene_light.h"
+#include "sim/solids.h"
 
 struct mjModel_;
-struct mjData_;
 
 namespace ringhook {
-
-/// A rectangle of a pinhole's image plane.
-struct PlaneView {
-  Pose wMc;               ///< camera in the world: x right, y down, z forward
-  double focal_px = 0.0;  ///< [px]
-  Window window;          ///< pixels of the grid that is centred on the optical axis
-};
 
 /// 8-bit colour, 4 bytes a pixel (red, green, blue, unused), rows from the top.
 struct ColourImage {
@@ -36,17 +32,26 @@ struct ColourImage {
 
 class Renderer {
  public:
-  /// The model must outlive the renderer. Throws DeviceError if there is no OpenGL.
-  explicit Renderer(const mjModel_& model);
+  /// Grey value of a surface of brightness 1, which fills the sensor's well; there is room above.
+  static constexpr int kWhite = 16384;
+
+  /// \param width, height of the largest plane that will be drawn [px]. The model must outlive the
+  /// renderer. Throws DeviceError if there is no OpenGL 3.3.
+  Renderer(const mjModel_& model, const SceneLight& light, int width, int height);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Takes over all positions; call once per instant, before any number of draws.
-  void updateScene(mjData_& data);
+  /// Takes over the solids and draws their shadows; call once per instant, before any draws.
+  void setScene(const std::vector<Solid>& solids);
 
-  /// Draws what updateScene last took over; large rectangles in tiles.
-  void draw(const PlaneView& view, ColourImage& image);
+  /// Draws `part` of the plane, row after row. `plane` is the whole rectangle of the image plane
+  /// that the camera can ever see; `part` lies in it.
+  void drawGrey(const Pinhole& eye, const Window& plane, const Window& part,
+                std::vector<std::uint16_t>& grey);
+
+  /// Draws the plane in colour, for looking at.
+  void drawColour(const Pinhole& eye, const Window& plane, ColourImage& image);
 
  private:
   struct Impl;

@@ -11,6 +11,8 @@
 #include "sim/cell_visuals.h"
 #include "sim/cell_world.h"
 #include "sim/mujoco_handles.h"
+#include "sim/scene_light.h"
+#include "sim/scene_motion.h"
 
 namespace ringhook {
 namespace {
@@ -26,7 +28,7 @@ const StereoRig& checked(const StereoRig& rig) {
 
 MujocoHandles painted(const CellWorld& world) {
   const MujocoHandles handles = mujocoHandles(world);
-  paintTextures(*handles.model, world.options().seed);
+  paintTextures(*handles.model, world.options().scene, world.options().seed);
   return handles;
 }
 
@@ -35,21 +37,26 @@ MujocoHandles painted(const CellWorld& world) {
 struct SimStereoCamera::Impl {
   Impl(CellWorld& cell, const StereoRig& rig, const SimCameraOptions& chosen);
   void expose(Time time);
+  /// Adds up the light of one exposure in both eyes.
+  void collect(double time_s);
   [[nodiscard]] Window clipped(const Window& window) const;
 
   CellWorld& world;
   SimCameraOptions options;
   MujocoHandles mujoco;
   Window full;
-  Renderer renderer;
+  SceneMotion motion;
   SensorNoise sensor;
   CameraEye left;
   CameraEye right;
+  Renderer renderer;
   Window left_window;
   Window right_window;
   std::uint64_t next_index = 0;
   std::deque<StereoFrame> queue;
   int schedule = 0;
+  ExposureEnds ends;
+  std::vector<Solid> solids;
 };
 
 SimStereoCamera::Impl::Impl(CellWorld& cell, const StereoRig& rig, const SimCameraOptions& chosen)
@@ -57,23 +64,44 @@ SimStereoCamera::Impl::Impl(CellWorld& cell, const StereoRig& rig, const SimCame
       options(chosen),
       mujoco(painted(cell)),
       full{0, 0, rig.left.width, rig.left.height},
-      renderer(*mujoco.model),
+      motion(mujoco, cell.options().scene, cell.options().seed),
       sensor(chosen.sensor),
       left(rig.left, *rig.fMc1),
       right(*rig.right, *rig.fMc1 * rig.c2Mc1.inverse()),
+      renderer(*mujoco.model, sceneLight(cell.options().scene, cell.options().seed),
+               std::max(left.plane().width, right.plane().width),
+               std::max(left.plane().height, right.plane().height)),
       left_window(full),
       right_window(full) {}
 
+void SimStereoCamera::Impl::collect(double time_s) {
+  const double exposure_s = options.sensor.exposure_s;
+  motion.solidsAt(time_s, -0.5 * exposure_s, ends.start);
+  motion.solidsAt(time_s, 0.5 * exposure_s, ends.end);
+  double motion_px = 0.0;
+  for (CameraEye* eye : {&left, &right}) {
+    motion_px = std::max(motion_px, largestMotion(ends, eye->pinhole(), eye->plane()));
+    eye->begin(eye == &left ? left_window : right_window,
+               movingParts(ends, eye->pinhole(), eye->plane()));
+  }
+  for (const SubInstant& instant : subInstants(subInstantCount(motion_px), exposure_s)) {
+    motion.solidsAt(time_s, instant.at, solids);
+    renderer.setScene(solids);
+    left.collect(renderer, instant.weight);
+    right.collect(renderer, instant.weight);
+  }
+}
+
 void SimStereoCamera::Impl::expose(Time time) {
   const std::uint64_t seed = world.options().seed;
-  renderer.updateScene(*mujoco.data);
   StereoFrame frame;
   frame.time = time;
   frame.index = next_index++;
   frame.left_window = left_window;
   frame.right_window = right_window;
-  frame.left = left.expose(renderer, sensor, {seed, frame.index, 0}, left_window);
-  frame.right = right.expose(renderer, sensor, {seed, frame.index, 1}, right_window);
+  collect(time.seconds());
+  frame.left = left.develop(sensor, {seed, frame.index, 0});
+  frame.right = right.develop(sensor, {seed, frame.index, 1});
   queue.push_back(std::move(frame));
   if (queue.size() > kQueueLength) {
     queue.pop_front();
@@ -131,8 +159,9 @@ void SimStereoCamera::savePicture(const std::filesystem::path& path, const Pose&
                                   double field_of_view, int width, int height) {
   const double focal_px = 0.5 * width / std::tan(0.5 * field_of_view);
   ColourImage drawn;
-  impl_->renderer.updateScene(*impl_->mujoco.data);
-  impl_->renderer.draw({fMc, focal_px, {-width / 2, -height / 2, width, height}}, drawn);
+  impl_->motion.solidsAt(impl_->world.time().seconds(), 0.0, impl_->solids);
+  impl_->renderer.setScene(impl_->solids);
+  impl_->renderer.drawColour({fMc, focal_px}, {-width / 2, -height / 2, width, height}, drawn);
   AtomicFile file(path);
   cv::Mat bgr;
   try {
