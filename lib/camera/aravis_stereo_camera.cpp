@@ -26,8 +26,8 @@ constexpr double kPairingPart = 0.25;
 constexpr double kLeastTolerance_s = 0.002;
 /// Images of the two cameras are waited for in turns of this length.
 constexpr double kTurn_s = 0.002;
-/// A clock that follows the host's is never further off than this.
-constexpr double kPlausible_s = 1.0;
+/// A clock that does not follow the host's counts from another epoch: it is years off, or hours.
+constexpr double kPlausible_s = 60.0;
 
 double pairingTolerance(double rate_hz) {
   return std::max(kLeastTolerance_s, kPairingPart / rate_hz);

@@ -132,9 +132,23 @@ void Rx60Server::runTick(Time clock) {
   }
 }
 
+bool Rx60Server::waitForClient(const std::atomic<bool>& stop) const {
+  std::array<pollfd, kRx60Sockets.size()> sockets{};
+  for (std::size_t i = 0; i < wires_.size(); ++i) {
+    sockets[i] = {wires_[i].tcp.listeningSocket(), POLLIN, 0};
+  }
+  constexpr int kLook_ms = 100;
+  while (!stop.load()) {
+    if (::poll(sockets.data(), sockets.size(), kLook_ms) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void Rx60Server::run(const std::atomic<bool>& stop, double seconds) {
-  const Time start = steadyNow();
-  const auto clock = [start] { return Time::fromSeconds(steadyNow() - start); };
+  started_ = steadyNow();
+  const auto clock = [this] { return Time::fromSeconds(steadyNow() - started_); };
   while (!stop.load() && clock().seconds() < seconds) {
     now_ = std::max(now_, clock());
     sleepUntil(nextEvent());

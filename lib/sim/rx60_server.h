@@ -42,10 +42,15 @@ class Rx60Server final : public Rx60Lines {
     on_event_ = std::move(action);
   }
 
+  /// Waits until a client knocks at any port; it is let in by run(). False if `stop` was set first.
+  [[nodiscard]] bool waitForClient(const std::atomic<bool>& stop) const;
+
   /// Serves on the caller's thread until `stop` is set or seconds [s] are over; then closes every
   /// connection. To be called once.
   void run(const std::atomic<bool>& stop, double seconds = std::numeric_limits<double>::infinity());
 
+  /// Instant of the host's steady clock at which run() began.
+  [[nodiscard]] Time startedAt() const { return started_; }
   [[nodiscard]] std::int64_t lateTicks() const { return late_ticks_; }  ///< left out
 
   // Faults of the lines; from onTick() or before run().
@@ -73,6 +78,7 @@ class Rx60Server final : public Rx60Lines {
   std::vector<Wire> wires_;
   std::function<void(Time)> on_tick_;
   std::function<void(Time, const std::string&)> on_event_;
+  Time started_;           ///< host's steady clock
   Time now_;               ///< since run() began
   std::int64_t tick_ = 1;  ///< number of the next one, at tick_ * 4 ms
   std::int64_t late_ticks_ = 0;

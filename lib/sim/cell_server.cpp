@@ -1,0 +1,48 @@
+#include "sim/cell_server.h"
+
+#include <chrono>
+
+namespace ringhook {
+namespace {
+
+/// What the host's real time is ahead of its steady one [ns].
+std::int64_t realMinusSteady_ns() {
+  using std::chrono::duration_cast;
+  using std::chrono::nanoseconds;
+  const auto steady = std::chrono::steady_clock::now().time_since_epoch();
+  const auto real = std::chrono::system_clock::now().time_since_epoch();
+  return duration_cast<nanoseconds>(real).count() - duration_cast<nanoseconds>(steady).count();
+}
+
+}  // namespace
+
+CellServer::CellServer(CellWorld& world, const StereoRig& true_rig,
+                       const CellServerOptions& options)
+    : plant_(world, options.gripper),
+      controller_(plant_),
+      arm_(controller_, options.arm),
+      eyes_(world, true_rig, options.sensor),
+      exposures_(eyes_, options.transport_delay_s),
+      world_(world),
+      cameras_(options.cameras,
+               [this](const ExposureRequest& request) { return exposures_.expose(request); }) {}
+
+CellServer::~CellServer() { exposures_.close(); }
+
+void CellServer::run(const std::atomic<bool>& stop, double seconds) {
+  arm_.onTick([this](Time) {
+    // Before the tick the world is where the last one left it.
+    const Time steady = arm_.startedAt() + world_.time().seconds();
+    exposures_.worldIsAt(steady.nanoseconds() + realMinusSteady_ns());
+    cameras_.rethrowFailure();
+    if (on_tick_) {
+      on_tick_(world_.time());
+    }
+  });
+  if (arm_.waitForClient(stop)) {
+    arm_.run(stop, seconds);
+  }
+  exposures_.close();
+}
+
+}  // namespace ringhook
