@@ -10,6 +10,7 @@
 #include "app/evaluate.h"
 #include "app/interrupt.h"
 #include "app/model.h"
+#include "app/record.h"
 #include "app/servo.h"
 #include "app/simulate.h"
 #include "core/error.h"
@@ -27,6 +28,7 @@ int run(int argc, char** argv) {
   ringhook::addCalibrateCommand(app);
   ringhook::addEvaluateCommand(app);
   ringhook::addModelCommand(app);
+  ringhook::addRecordCommand(app);
   ringhook::addSimulateCommand(app);
   try {
     app.parse(argc, argv);
@@ -35,9 +37,11 @@ int run(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr,
-                 "ringhook: a command is required: servo, arm, calibrate, evaluate, model or simulate\n"
-                 "Run with --help for more information.\n");
+    std::fprintf(
+        stderr,
+        "ringhook: a command is required: servo, arm, calibrate, evaluate, model, record or "
+        "simulate\n"
+        "Run with --help for more information.\n");
     return 2;
   }
   return 0;

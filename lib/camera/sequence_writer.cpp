@@ -3,12 +3,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "camera/image_file.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace ringhook {
 namespace {
@@ -24,15 +24,6 @@ constexpr auto kRobotHeader =
 std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
-
-/// Seconds with nine decimals, made from the whole number of nanoseconds.
-std::string secondsText(Time time) {
-  char text[48];
-  const long long ns = time.nanoseconds();
-  std::snprintf(text, sizeof(text), "%s%lld.%09lld", ns < 0 ? "-" : "",
-                std::abs(ns / 1'000'000'000), std::abs(ns % 1'000'000'000));
   return text;
 }
 
@@ -82,9 +73,7 @@ std::string sequenceYaml(const SequenceInfo& info, const std::string& target) {
 }  // namespace
 
 SequenceWriter::SequenceWriter(fs::path folder, const SequenceInfo& info, const StereoRig& rig)
-    : folder_(std::move(folder)),
-      extension_("." + info.image_format),
-      rows_per_save_(info.rows_per_save > 0 ? info.rows_per_save : 1) {
+    : folder_(std::move(folder)), extension_("." + info.image_format) {
   if (info.image_format != "png" && info.image_format != "pgm") {
     throw InputError("image format " + info.image_format + ": expected png or pgm");
   }
@@ -100,13 +89,14 @@ SequenceWriter::SequenceWriter(fs::path folder, const SequenceInfo& info, const 
   saveRig(folder_ / "rig.yaml", rig);
   writeFileAtomically(folder_ / "sequence.yaml",
                       sequenceYaml(info, copiedTarget(folder_, info.target)));
+  frame_table_ = std::make_unique<TableFile>(folder_ / "frames.csv", kFramesHeader);
 }
 
 SequenceWriter::~SequenceWriter() {
   try {
     close();
   } catch (const std::exception&) {
-    closed_ = true;
+    frame_table_.reset();
   }
 }
 
@@ -114,49 +104,53 @@ void SequenceWriter::addFrame(const StereoFrame& frame) {
   char number[24];
   std::snprintf(number, sizeof(number), "%06zu", frames_);
   const std::string left = "left/" + std::string(number) + extension_;
-  std::string right;
-  writeGrayImage(folder_ / left, frame.left);
-  if (!frame.right.empty()) {
-    right = "right/" + std::string(number) + extension_;
-    writeGrayImage(folder_ / right, frame.right);
+  const std::string right =
+      frame.right.empty() ? std::string() : "right/" + std::string(number) + extension_;
+  try {
+    writeGrayImage(folder_ / left, frame.left);
+    if (!right.empty()) {
+      writeGrayImage(folder_ / right, frame.right);
+    }
+    frame_table_->append(std::to_string(frame.index) + "," + secondsText(frame.time) + "," + left +
+                         "," + right + "," + std::to_string(frame.left_window.x) + "," +
+                         std::to_string(frame.left_window.y) + "," +
+                         std::to_string(frame.right_window.x) + "," +
+                         std::to_string(frame.right_window.y) + "\n");
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(folder_ / left, ignored);
+    if (!right.empty()) {
+      fs::remove(folder_ / right, ignored);
+    }
+    throw;
   }
-  frame_rows_ += std::to_string(frame.index) + "," + secondsText(frame.time) + "," + left + "," +
-                 right + "," + std::to_string(frame.left_window.x) + "," +
-                 std::to_string(frame.left_window.y) + "," + std::to_string(frame.right_window.x) +
-                 "," + std::to_string(frame.right_window.y) + "\n";
   ++frames_;
-  if (frames_ % rows_per_save_ == 0) {
-    saveTables();
-  }
 }
 
 void SequenceWriter::addTruth(Time time, const Pose& c1Mo) {
-  truth_rows_ += secondsText(time) + "," + poseText(c1Mo) + "\n";
+  if (!truth_table_) {
+    truth_table_ = std::make_unique<TableFile>(folder_ / "truth.csv", kTruthHeader);
+  }
+  truth_table_->append(secondsText(time) + "," + poseText(c1Mo) + "\n");
 }
 
 void SequenceWriter::addRobot(Time time, const JointVector& position, const Pose& fMe) {
-  robot_rows_ += secondsText(time);
-  for (const double angle : position) {
-    robot_rows_ += "," + digits(angle);
+  if (!robot_table_) {
+    robot_table_ = std::make_unique<TableFile>(folder_ / "robot.csv", kRobotHeader);
   }
-  robot_rows_ += "," + poseText(fMe) + "\n";
+  std::string row = secondsText(time);
+  for (const double angle : position) {
+    row += "," + digits(angle);
+  }
+  robot_table_->append(row + "," + poseText(fMe) + "\n");
 }
 
 void SequenceWriter::close() {
-  if (!closed_) {
-    saveTables();
-    closed_ = true;
+  for (const auto* table : {&frame_table_, &truth_table_, &robot_table_}) {
+    if (*table) {
+      (*table)->close();
+    }
   }
-}
-
-void SequenceWriter::saveTables() const {
-  if (!truth_rows_.empty()) {
-    writeFileAtomically(folder_ / "truth.csv", kTruthHeader + truth_rows_);
-  }
-  if (!robot_rows_.empty()) {
-    writeFileAtomically(folder_ / "robot.csv", kRobotHeader + robot_rows_);
-  }
-  writeFileAtomically(folder_ / "frames.csv", kFramesHeader + frame_rows_);
 }
 
 }  // namespace ringhook

@@ -2,15 +2,17 @@
 
 /// \file
 /// Records a sequence folder (doc/formats.md). Each image is written whole or not at all; the
-/// tables are rewritten whole every `rows_per_save` frames and on close(), after the images that
-/// they name. So a run that ends by an exception, by Ctrl-C or by a lost power line leaves a
-/// valid sequence of what it had.
+/// tables grow row by row, each row after the images that it names. So what ends a recording, an
+/// exception, Ctrl-C, a full disk or a kill, leaves a valid sequence of the frames that were whole
+/// by then.
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "camera/table_file.h"
 #include "core/joints.h"
 #include "core/pose.h"
 #include "core/stereo_frame.h"
@@ -27,40 +29,39 @@ struct SequenceInfo {
   std::string notes;
   std::string licence;
   std::string image_format = "png";  ///< png or pgm: smaller, or faster to write
-  std::size_t rows_per_save = 100;   ///< frames between two writings of the tables
 };
 
 class SequenceWriter {
  public:
   /// Makes the folder, writes sequence.yaml and rig.yaml and drops an older recording's tables.
-  /// Throws InputError if the folder cannot be written or the format is unknown.
+  /// Throws InputError for an unknown format or a rate that is none, Error if the disk refuses.
   SequenceWriter(std::filesystem::path folder, const SequenceInfo& info, const StereoRig& rig);
   /// Closes; a failure is then silent, so call close() to hear of it.
   ~SequenceWriter();
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
 
-  /// Stores the images and their window offsets. Throws Error if the disk refuses.
+  /// Stores the images and their window offsets. Throws Error if the disk refuses; the sequence
+  /// then stands as it was before.
   void addFrame(const StereoFrame& frame);
-  /// One row of truth.csv: target in the left camera.
+  /// One row of truth.csv: target in the left camera. Throws Error.
   void addTruth(Time time, const Pose& c1Mo);
-  /// One row of robot.csv: joint angles [rad] and flange in the robot reference.
+  /// One row of robot.csv: joint angles [rad] and flange in the robot reference. Throws Error.
   void addRobot(Time time, const JointVector& position, const Pose& fMe);
 
-  /// Writes the tables a last time. Nothing may be added afterwards. Throws Error.
+  /// Frames that are whole.
+  [[nodiscard]] std::size_t frames() const { return frames_; }
+
+  /// Waits until the disk has the tables. Nothing may be added afterwards. Throws Error.
   void close();
 
  private:
-  void saveTables() const;
-
   std::filesystem::path folder_;
   std::string extension_;
-  std::size_t rows_per_save_;
   std::size_t frames_ = 0;
-  std::string frame_rows_;  ///< of frames.csv, as text
-  std::string truth_rows_;
-  std::string robot_rows_;
-  bool closed_ = false;
+  std::unique_ptr<TableFile> frame_table_;
+  std::unique_ptr<TableFile> truth_table_;  ///< made with its first row
+  std::unique_ptr<TableFile> robot_table_;  ///< likewise
 };
 
 }  // namespace ringhook

@@ -33,7 +33,7 @@ std::unique_ptr<AravisStereoCamera> openCameras(const CellConfig& cell, double d
   return std::make_unique<AravisStereoCamera>(options);
 }
 
-std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell) {
+std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell, Rx60Arm::Needs needs) {
   const ControllerDevice& device = cell.devices.arm;
   rx60::ControllerAddress address;
   address.host = device.address;
@@ -47,7 +47,7 @@ std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell) {
   settings.gripper_closes_on = device.gripper_closes_on;
   settings.limiter.tool_e = cell.arm.eMr.translation();
   return std::make_unique<Rx60Arm>(std::make_unique<rx60::TcpPort>(address), settings,
-                                   Rx60Arm::Runs::kOnItsOwnThread);
+                                   Rx60Arm::Runs::kOnItsOwnThread, needs);
 }
 
 }  // namespace ringhook

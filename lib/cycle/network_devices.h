@@ -16,7 +16,8 @@ namespace ringhook {
 /// [s]. Throws DeviceError naming the camera.
 std::unique_ptr<AravisStereoCamera> openCameras(const CellConfig& cell, double delay_s);
 
-/// The arm, ready to move. Throws DeviceError that says what is missing.
-std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell);
+/// The arm, ready to move, or only to be watched. Throws DeviceError that says what is missing.
+std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell,
+                                 Rx60Arm::Needs needs = Rx60Arm::Needs::kMotion);
 
 }  // namespace ringhook

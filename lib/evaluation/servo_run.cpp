@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "cycle/servo_loop.h"
+#include "evaluation/cell_devices.h"
 #include "evaluation/live_run.h"
 #include "evaluation/truth_log.h"
 #include "sim/nominal_rig.h"
@@ -22,17 +23,6 @@ namespace fs = std::filesystem;
 /// Hooks that one simulated belt carries; a longer job goes on with a fresh belt.
 constexpr int kHooksPerBelt = 6;
 constexpr double kTruthPeriod = 0.01;  // [s]
-
-fs::path scenarioFile(const CellConfig& cell, const std::string& name) {
-  if (name.empty()) {
-    return cell.devices.scenario;
-  }
-  const fs::path file = cell.devices.scenario.parent_path() / (name + ".yaml");
-  if (!fs::exists(file)) {
-    throw InputError("--scenario " + name + ": expected a scenario with a file " + file.string());
-  }
-  return file;
-}
 
 /// Passes on what the witness sees, and tells how far the job is.
 class ProgressObserver : public LoopObserver {

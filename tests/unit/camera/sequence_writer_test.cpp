@@ -86,15 +86,14 @@ TEST(SequenceWriter, AnInterruptedRunLeavesAValidSequence) {
   }
 }
 
-TEST(SequenceWriter, TablesAreSavedWhileRecording) {
+TEST(SequenceWriter, AFrameIsThereAsSoonAsItIsAdded) {
   const ScratchFolder folder;
-  SequenceInfo info = someInfo();
-  info.rows_per_save = 2;
-  SequenceWriter writer(folder.path(), info, smallRig());
-  for (int i = 0; i < 3; ++i) {
-    writer.addFrame(numberedFrame(i));
+  SequenceWriter writer(folder.path(), someInfo(), smallRig());
+  for (std::size_t i = 0; i < 3; ++i) {
+    writer.addFrame(numberedFrame(static_cast<int>(i)));
+    EXPECT_EQ(openSequence(folder.path()).frames.size(), i + 1);
+    EXPECT_EQ(writer.frames(), i + 1);
   }
-  EXPECT_EQ(openSequence(folder.path()).frames.size(), 2U);
 }
 
 TEST(SequenceWriter, ForgetsAnOlderRecordingInTheSameFolder) {

@@ -271,9 +271,6 @@ TEST(MeshModel, VispSeesTheConcaveFaceThatIsTurnedToIt) {
     const auto view = tracker.track(frame, start);
     ASSERT_TRUE(view) << view.reason();
     EXPECT_EQ(sidesSeen(*view, outline, oMface.translation().z()).size(), 6U);
-    // One view of a flat face tells its place across the line of sight; its depth only roughly.
-    const Pose off = c1Mo.inverse() * view->c1Mo_start;
-    EXPECT_LT(off.translation().head<2>().norm(), 0.0005);
     EXPECT_LT(tracker.quality().rms_px, 1.0);
   }
   std::filesystem::remove(file);
