@@ -5,6 +5,9 @@
 namespace ringhook {
 namespace {
 
+/// A busy host that simulates the cell takes longer than a controller's second [s].
+constexpr double kFirstState = 10.0;
+
 GigeCameraOptions cameraOptions(const CameraDevices& devices, const std::string& device) {
   GigeCameraOptions options;
   options.device = device;
@@ -45,6 +48,7 @@ std::unique_ptr<Rx60Arm> openArm(const CellConfig& cell, Rx60Arm::Needs needs) {
   settings.gripper_module = device.gripper_module;
   settings.gripper_pin = device.gripper_pin;
   settings.gripper_closes_on = device.gripper_closes_on;
+  settings.first_state_s = kFirstState;
   settings.limiter.tool_e = cell.arm.eMr.translation();
   return std::make_unique<Rx60Arm>(std::make_unique<rx60::TcpPort>(address), settings,
                                    Rx60Arm::Runs::kOnItsOwnThread, needs);

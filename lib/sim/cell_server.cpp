@@ -1,9 +1,39 @@
 #include "sim/cell_server.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
+#include <exception>
+#include <thread>
 
 namespace ringhook {
 namespace {
+
+constexpr int kDrawingNice = 10;
+
+/// For this thread and the threads that it starts from now on (setpriority(2) on Linux: nice values
+/// are per thread).
+void yieldToTicks() { ::setpriority(PRIO_PROCESS, 0, kDrawingNice); }
+
+/// Made on a thread of low priority: the renderer's own threads inherit it.
+std::unique_ptr<StereoEyes> makeEyes(CellWorld& world, const StereoRig& rig,
+                                     const SensorOptions& sensor) {
+  std::unique_ptr<StereoEyes> eyes;
+  std::exception_ptr failure;
+  std::thread maker([&] {
+    yieldToTicks();
+    try {
+      eyes = std::make_unique<StereoEyes>(world, rig, sensor);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  });
+  maker.join();
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return eyes;
+}
 
 /// What the host's real time is ahead of its steady one [ns].
 std::int64_t realMinusSteady_ns() {
@@ -21,11 +51,14 @@ CellServer::CellServer(CellWorld& world, const StereoRig& true_rig,
     : plant_(world, options.gripper),
       controller_(plant_),
       arm_(controller_, options.arm),
-      eyes_(world, true_rig, options.sensor),
-      exposures_(eyes_, options.transport_delay_s),
+      eyes_(makeEyes(world, true_rig, options.sensor)),
+      exposures_(*eyes_, options.transport_delay_s),
       world_(world),
-      cameras_(options.cameras,
-               [this](const ExposureRequest& request) { return exposures_.expose(request); }) {}
+      cameras_(options.cameras, [this](const ExposureRequest& request) {
+        thread_local const bool yields = (yieldToTicks(), true);  // the cameras' own threads
+        static_cast<void>(yields);
+        return exposures_.expose(request);
+      }) {}
 
 CellServer::~CellServer() { exposures_.close(); }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "rig/stereo_rig.h"
@@ -54,7 +55,7 @@ class CellServer {
   CellPlant plant_;
   Rx60Controller controller_;
   Rx60Server arm_;
-  StereoEyes eyes_;
+  std::unique_ptr<StereoEyes> eyes_;
   LiveExposures exposures_;
   CellWorld& world_;
   std::function<void(Time)> on_tick_;

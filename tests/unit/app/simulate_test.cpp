@@ -24,6 +24,8 @@ using test::ProgramResult;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+constexpr const char* kNetworkCell = RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml";
+
 class Simulate : public ::testing::Test {
  protected:
   /// On free ports, with these arguments added.
@@ -87,12 +89,24 @@ TEST_F(Simulate, ServesAClientUntilInterrupted) {
   EXPECT_THAT(result.out, HasSubstr("controller ticks"));
 }
 
-TEST_F(Simulate, WithoutArmOnlyIsRefusedInOneSentence) {
+TEST_F(Simulate, NeitherCellNorArmOnlyIsRefusedInOneSentence) {
   const ProgramResult result = run({"simulate"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("--arm-only"));
-  EXPECT_THAT(result.err, HasSubstr("cameras"));
+  EXPECT_THAT(result.err, HasSubstr("--cell"));
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+  expectRefused({"simulate", "--arm-only", "--cell", kNetworkCell}, "either --cell");
+}
+
+TEST_F(Simulate, ACellThatCannotBeServedIsNamed) {
+  expectRefused({"simulate", "--cell", "nowhere.yaml"}, "nowhere.yaml");
+  scratch_.write("empty.yaml", "");
+  expectRefused({"simulate", "--cell", "empty.yaml"}, "empty.yaml");
+  expectRefused({"simulate", "--cell", RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml"},
+                "expected network");
+  expectRefused({"simulate", "--cell", kNetworkCell, "--scenario", "earthquake"}, "earthquake");
+  expectRefused({"simulate", "--cell", kNetworkCell, "--lost-packets", "1.5"}, "--lost-packets");
+  expectRefused({"simulate", "--cell", kNetworkCell, "--hooks", "0"}, "--hooks");
 }
 
 TEST_F(Simulate, WrongUseIsNamed) {

@@ -20,9 +20,10 @@ ServoAttempt hung() {
   attempt.loop.ended = Time::fromSeconds(12.0);
   attempt.loop.tracking_error_m.add(1e-3);
   attempt.loop.tracking_error_m.add(3e-3);
-  attempt.truth.hanging = true;
-  attempt.truth.peak_contact_n = 1.5;
-  attempt.truth.insertion_error_m.add(5e-4);
+  attempt.truth.emplace();
+  attempt.truth->hanging = true;
+  attempt.truth->peak_contact_n = 1.5;
+  attempt.truth->insertion_error_m.add(5e-4);
   return attempt;
 }
 
@@ -31,13 +32,14 @@ ServoAttempt aborted(const std::string& reason) {
   attempt.loop.abort_reason = reason;
   attempt.loop.started = Time::fromSeconds(12.0);
   attempt.loop.ended = Time::fromSeconds(18.0);
-  attempt.truth.peak_contact_n = 2.5;
+  attempt.truth.emplace();
+  attempt.truth->peak_contact_n = 2.5;
   return attempt;
 }
 
 ServoAttempt fell() {
   ServoAttempt attempt = hung();
-  attempt.truth.hanging = false;
+  attempt.truth->hanging = false;
   return attempt;
 }
 
@@ -99,6 +101,30 @@ TEST(ServoSummary, OfNothingIsStillValid) {
   const json summary = summaryOf(report);
   EXPECT_EQ(summary.at("interrupted"), true);
   EXPECT_EQ(summary.at("cycles"), 0);
+}
+
+TEST(ServoSummary, WhereNobodyJudgesNoRingIsSaidToHang) {
+  ServoReport report;
+  report.live.emplace();
+  report.live->cameras.pairs = 250;
+  report.live->cameras.unpaired_left = 1;
+  report.live->arm.commands = 5000;
+  report.attempts = {hung(), aborted("hook lost")};
+  report.attempts[0].truth.reset();
+  report.attempts[1].truth.reset();
+  EXPECT_EQ(ringsHung(report), 0);
+  EXPECT_EQ(ringsReleased(report), 1);
+  const json summary = summaryOf(report);
+  EXPECT_TRUE(summary.at("rings_hung").is_null());
+  EXPECT_TRUE(summary.at("peak_contact_n").is_null());
+  EXPECT_EQ(summary.at("rings_released"), 1);
+  EXPECT_THAT(summary.at("judged_by"), HasSubstr("nobody"));
+  EXPECT_FALSE(summary.contains("simulated"));
+  EXPECT_EQ(summary.at("cameras").at("pairs"), 250);
+  EXPECT_EQ(summary.at("cameras").at("unpaired_left"), 1);
+  EXPECT_EQ(summary.at("arm").at("commands"), 5000);
+  EXPECT_EQ(summary.at("attempts").at(0).at("outcome"), "ring released");
+  EXPECT_THAT(servoTableRow(0, report.attempts[0]), HasSubstr("ring released"));
 }
 
 TEST(ServoSummary, TableCountsHooksFromOneAndSaysWhy) {

@@ -1,0 +1,76 @@
+// Two programs and the wires between them, in a network of their own: `ringhook simulate --cell`
+// serves cameras and controller, `ringhook servo` runs on them in real time. How fast and how well
+// depends on the host, so only order and outcome are looked at here.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "../support/own_network.h"
+#include "../unit/app/program.h"
+#include "../unit/camera/scratch_folder.h"
+
+namespace ringhook {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kCell = RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml";
+
+nlohmann::json jsonOf(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  EXPECT_TRUE(stream.is_open()) << file;
+  return nlohmann::json::parse(stream);
+}
+
+class LivePrograms : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::ownNetwork().empty()) {
+      GTEST_SKIP() << test::ownNetwork();
+    }
+    cell_ = std::make_unique<test::Program>(
+        scratch_.path(), std::vector<std::string>{"simulate", "--cell", kCell, "--json",
+                                                  "cell.json", "--truth", "truth"});
+    ASSERT_TRUE(cell_->waitUntilItSays("the belt starts when"));
+  }
+
+  ScratchFolder scratch_;
+  std::unique_ptr<test::Program> cell_;
+};
+
+TEST_F(LivePrograms, CtrlCStopsTheArmOverTheWireThenSaves) {
+  test::Program servo(scratch_.path(), {"servo", "--cell", kCell, "--cycles", "1", "--out", "out"});
+  ASSERT_TRUE(servo.waitUntilItSays("hook 1, ")) << servo.saidSoFar();
+  servo.signal(SIGINT);
+  const test::ProgramResult stopped = servo.wait();
+  EXPECT_EQ(stopped.exit_code, 1) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("stopped by the operator"));
+  const nlohmann::json summary = jsonOf(scratch_.path() / "out" / "summary.json");
+  EXPECT_EQ(summary.at("interrupted"), true);
+  EXPECT_TRUE(summary.at("rings_hung").is_null());
+
+  ASSERT_TRUE(cell_->waitUntilItSays("motion: client gone"));
+  cell_->signal(SIGINT);
+  const test::ProgramResult served = cell_->wait();
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_THAT(served.out, HasSubstr("0 rings hang"));
+  EXPECT_GT(jsonOf(scratch_.path() / "cell.json").at("received").at("VELOCITY_CMD"), 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "truth" / "hooks.csv"));
+}
+
+TEST_F(LivePrograms, ACellThatGoesAwayStopsTheRunWithItsReason) {
+  test::Program servo(scratch_.path(), {"servo", "--cell", kCell, "--cycles", "1", "--out", "out"});
+  ASSERT_TRUE(servo.waitUntilItSays("hook 1, ")) << servo.saidSoFar();
+  cell_->signal(SIGKILL);
+  const test::ProgramResult ended = servo.wait();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("ringhook: "));
+}
+
+}  // namespace
+}  // namespace ringhook
