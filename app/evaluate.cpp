@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/experiment.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "camera/image_file.h"
@@ -242,6 +243,7 @@ void addEvaluateCommand(CLI::App& app) {
   evaluate->footer("Example: ringhook evaluate sequence datasets/visp-cube");
   evaluate->require_subcommand(1);
   addSequenceCommand(*evaluate);
+  addExperimentCommand(*evaluate);
 }
 
 }  // namespace ringhook

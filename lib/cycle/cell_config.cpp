@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "cycle/yaml_fields.h"
+#include "core/yaml_fields.h"
 
 namespace ringhook {
 namespace {

@@ -73,14 +73,14 @@ CellConfig withCommandDelay(CellConfig cell, const Arm& arm) {
 /// One belt: the simulated devices, the loop's stages, the witness, and the job on it.
 class Belt {
  public:
-  Belt(const ServoJob& job, const CellConfig& cell, Scenario scenario, int first, int hooks)
+  Belt(const ServoJob& job, const CellConfig& cell, const Scenario& scenario, int first, int hooks)
       : job_(job),
         cell_(cell),
         told_rig_(loadRig(cell.rig)),
-        true_rig_(disturbedRig(told_rig_, job.seed)),
-        world_(worldOptions(std::move(scenario), job, first, hooks)),
+        true_rig_(disturbedRig(told_rig_, job.seed, scenario.calibration)),
+        world_(worldOptions(scenario, job, first, hooks)),
         arm_(makeArm(world_, job)),
-        camera_(world_, true_rig_, cameraOptions(cell)),
+        camera_(world_, true_rig_, cameraOptions(scenario, cell)),
         vision_(cell, told_rig_, job.tracker),
         task_(withCommandDelay(cell, *arm_)),
         witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
@@ -111,8 +111,9 @@ class Belt {
   [[nodiscard]] const LoopStatistics& statistics() const { return witness_.statistics(); }
 
  private:
-  static CellOptions worldOptions(Scenario scenario, const ServoJob& job, int first, int hooks) {
-    CellOptions options = std::move(scenario.cell);
+  static CellOptions worldOptions(const Scenario& scenario, const ServoJob& job, int first,
+                                  int hooks) {
+    CellOptions options = scenario.cell;
     options.seed = job.seed + static_cast<std::uint64_t>(first);
     options.hook.count = hooks;
     options.ring.count = hooks;
@@ -125,8 +126,8 @@ class Belt {
     return job.out / (belt == 1 ? "truth" : "truth-" + std::to_string(belt));
   }
 
-  static SimCameraOptions cameraOptions(const CellConfig& cell) {
-    SimCameraOptions options;
+  static SimCameraOptions cameraOptions(const Scenario& scenario, const CellConfig& cell) {
+    SimCameraOptions options = scenario.camera;
     options.rate_hz = cell.vision.search_rate_hz;
     options.transport_delay_s = cell.vision.transport_delay_s;
     return options;

@@ -7,6 +7,7 @@
 
 #include "sim/arm_visuals.h"
 #include "sim/cell_visuals.h"
+#include "sim/hook_air.h"
 #include "sim/hook_body.h"
 
 namespace ringhook {
@@ -162,7 +163,7 @@ std::string hook(const CellOptions& options, const HookDraw& draw, int index) {
   for (const HookPart& part : hookPlates()) {
     text << box(part.center_o, part.half_size, std::string(kHookContact) + kNotDrawn);
   }
-  text << tagPlateXml();
+  text << hookAirXml() << tagPlateXml();
   text << "</body>\n";
   return text.str();
 }

@@ -45,17 +45,27 @@ TEST(TagPlate, PutsTheHooksTagsOnItsShankWithTheUpperOneFirst) {
 }
 
 TEST(TagPlate, NamesLineAndFieldOfABadFile) {
-  EXPECT_THAT(plateComplaint("family: tag99\nlayout: [{id: 0, size: 1}]"), HasSubstr(":1: family"));
-  EXPECT_THAT(plateComplaint("family: tag36h11\n"), HasSubstr("'layout'"));
+  EXPECT_THAT(plateComplaint("family: tag99\nlayout: [{id: 0, size: 1}]"),
+              HasSubstr("line 1: field family: expected one of tag16h5, tag25h9, tag36h11"));
+  EXPECT_THAT(plateComplaint("family: tag36h11\n"), HasSubstr("field layout is missing"));
+  EXPECT_THAT(plateComplaint("family: tag36h11\nlayout: []"), HasSubstr("field layout: expected"));
   const std::string head = "family: tag16h5\nlayout:\n  - ";
-  EXPECT_THAT(plateComplaint(head + "{id: 30, size: 0.04}"), HasSubstr(":3: 'id'"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: -0.04}"), HasSubstr(":3: 'size'"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1}"), HasSubstr("'size' is missing"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, x: far}"), HasSubstr(":3: 'x'"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, qw: 0}"), HasSubstr(":3: quaternion"));
+  EXPECT_THAT(plateComplaint(head + "{id: 30, size: 0.04}"),
+              HasSubstr("line 3: field layout[0].id: expected a whole number from 0 to 29"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: -0.04}"),
+              HasSubstr("line 3: field layout[0].size: expected a number from 0"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0}"),
+              HasSubstr("line 3: field layout[0].size: expected a positive length"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1}"), HasSubstr("field layout[0].size is missing"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, x: far}"),
+              HasSubstr("line 3: field layout[0].x: expected a number"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, qw: 0}"),
+              HasSubstr("line 3: field layout[0]: expected a quaternion"));
   EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1}\n  - {id: 1, size: 0.1}"),
-              HasSubstr(":4: id 1 stands twice"));
-  EXPECT_THAT(plateComplaint("family: [\n"), HasSubstr("not a YAML file"));
+              HasSubstr("line 4: field layout[1].id: expected each id once, got 1 again"));
+  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1}\noMK: {x: 1}"),
+              HasSubstr("line 4: unknown field oMK"));
+  EXPECT_THAT(plateComplaint("family: [\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(plateComplaint(""), HasSubstr("a map"));
   EXPECT_THAT(complaint([] { loadTagPlate("absent.yaml"); }), HasSubstr("absent.yaml"));
 }

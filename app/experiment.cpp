@@ -1,0 +1,68 @@
+#include "app/experiment.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "evaluation/pendulum_experiment.h"
+
+namespace ringhook {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExperimentFlags {
+  std::string name;
+  std::string out;
+  std::string json;
+};
+
+void runPendulum(const ExperimentFlags& flags) {
+  const PendulumExperiment experiment = runPendulumExperiment();
+  const fs::path folder =
+      flags.out.empty() ? fs::path("out/experiment-pendulum") : fs::path(flags.out);
+  writePendulumOutputs(folder, experiment);
+  if (!flags.json.empty()) {
+    writeFileAtomically(flags.json, pendulumJson(experiment));
+  }
+  std::printf("%swritten: %s (report.html, summary.json, trajectories.csv)\n",
+              pendulumTable(experiment).c_str(), folder.string().c_str());
+}
+
+struct Experiment {
+  const char* name;
+  void (*run)(const ExperimentFlags&);
+};
+
+constexpr Experiment kExperiments[] = {{"pendulum", runPendulum}};
+
+void runExperiment(const ExperimentFlags& flags) {
+  std::string known;
+  for (const Experiment& experiment : kExperiments) {
+    if (flags.name == experiment.name) {
+      experiment.run(flags);
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(experiment.name);
+  }
+  throw InputError("evaluate experiment " + flags.name + ": expected one of: " + known);
+}
+
+}  // namespace
+
+void addExperimentCommand(CLI::App& evaluate) {
+  auto flags = std::make_shared<ExperimentFlags>();
+  CLI::App* command = evaluate.add_subcommand(
+      "experiment", "Repeat an experiment of the 2007 report beside its own numbers.");
+  command->footer(
+      "pendulum: 1 m, 1 kg, released at 1 rad, D = 0 and 0.5; and the cell's hook.\n"
+      "Example: ringhook evaluate experiment pendulum --json pendulum.json");
+  command->add_option("NAME", flags->name, "pendulum")->required();
+  command->add_option("--out", flags->out, "folder for the results (out/experiment-NAME)");
+  command->add_option("--json", flags->json, "also write summary.json to this file");
+  command->callback([flags] { runExperiment(*flags); });
+}
+
+}  // namespace ringhook
