@@ -138,12 +138,12 @@ std::string visualAssetXml(const SceneOptions& options) {
          materialXml("floor", R"(rgba="0.30 0.29 0.28 1")", 0.0, 0.0) +
          materialXml("steel", R"(rgba="0.62 0.63 0.65 1")", 0.22 * s, 0.30) +
          materialXml("metal", R"(rgba="0.55 0.56 0.58 1")", 0.25 * s, 0.45) +
-         materialXml("arm", R"(rgba="0.85 0.42 0.08 1")", 0.06 * s, 0.40) +
-         materialXml("arm_dark", R"(rgba="0.13 0.13 0.14 1")", 0.05 * s, 0.30) +
-         materialXml("paint", R"(rgba="0.35 0.42 0.40 1")", 0.04 * s, 0.20) +
-         materialXml("gripper", R"(rgba="0.22 0.23 0.25 1")", 0.08 * s, 0.30) +
+         materialXml("arm", R"(rgba="0.85 0.42 0.08 1")", 0.0, 0.0) +
+         materialXml("arm_dark", R"(rgba="0.13 0.13 0.14 1")", 0.0, 0.0) +
+         materialXml("paint", R"(rgba="0.35 0.42 0.40 1")", 0.0, 0.0) +
+         materialXml("gripper", R"(rgba="0.22 0.23 0.25 1")", 0.0, 0.0) +
          materialXml("ring", R"(rgba="0.68 0.69 0.71 1")", 0.30 * s, 0.50) +
-         materialXml("belt", R"(rgba="0.16 0.17 0.19 1")", 0.03 * s, 0.20);
+         materialXml("belt", R"(rgba="0.16 0.17 0.19 1")", 0.0, 0.0);
 }
 
 std::string sceneVisualXml(const SceneOptions& options, std::uint64_t cell_seed) {

@@ -5,28 +5,24 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "sim/egl_context.h"
 #include "sim/gl_canvas.h"
-#include "sim/shaders.h"
+#include "sim/scene_programs.h"
 #include "sim/solid_batches.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kNear = 0.10;       // [m]
-constexpr double kFar = 8.0;         // [m]
-constexpr int kSmallestMap = 16;     // shadow map where none is wanted [px]
-constexpr double kSheetReach = 1.0;  // half side from which on a thing is wall or floor [m]
+constexpr double kNear = 0.10;  // [m]
+constexpr double kFar = 8.0;    // [m]
+constexpr double kBiasTexels = 2.0;
+constexpr int kSmallestMap = 16;  // shadow map where none is wanted [px]
 // What the lamps' shadows have to cover, in f [m].
 const Eigen::Vector3d kShadowFrom(-1.0, -1.3, 0.0);
 const Eigen::Vector3d kShadowTo(1.1, 1.3, 1.40);
-// ITU-R BT.601 luma of linear colour; white is Renderer::kWhite of 65535.
-constexpr std::array<float, 4> kGrey{0.299F, 0.587F, 0.114F, Renderer::kWhite / 65535.0F};
-constexpr std::array<float, 4> kColour{0.0F, 0.0F, 0.0F, 0.0F};
 
 /// Clip coordinates of points in f that are given from the camera's place. Rows go downwards on
 /// the canvas, from the plane's first one.
@@ -59,49 +55,28 @@ Eigen::Matrix4d clipFromKey(const Eigen::Vector3d& towards_key) {
   return clip;
 }
 
-/// Wall and floor: behind everything, they hide no lamp.
-bool isSheet(const Solid& solid) {
-  const Eigen::Vector3d reach = solid.reach();
-  return (reach.array() > kSheetReach).count() >= 2;
-}
-
-void setMatrix(unsigned program, const char* name, const Eigen::Matrix4d& matrix) {
-  const Eigen::Matrix4f values = matrix.cast<float>();
-  glUniformMatrix4fv(glGetUniformLocation(program, name), 1, GL_FALSE, values.data());
-}
-
-void setVector(unsigned program, const char* name, const Eigen::Vector3d& v) {
-  glUniform3f(glGetUniformLocation(program, name), static_cast<float>(v.x()),
-              static_cast<float>(v.y()), static_cast<float>(v.z()));
-}
-
-void setNumber(unsigned program, const char* name, double value) {
-  glUniform1f(glGetUniformLocation(program, name), static_cast<float>(value));
-}
-
 }  // namespace
 
 struct Renderer::Impl {
   Impl(const mjModel_& model, const SceneLight& lamps, int width, int height);
   ~Impl();
-  void setLight() const;
   void drawShadows();
+  [[nodiscard]] ScenePrograms::View viewOf(const Pinhole& eye, const Window& plane) const;
+  void chooseVisible(const Pinhole& eye, const Window& part);
   void drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane, const Window& part,
-                const std::array<float, 4>& grey_weights);
+                bool colour);
 
   /// Ends what needs the context while it is current.
   struct Resources {
-    Resources(const mjModel_& model, int width, int height, int map_side)
+    Resources(const mjModel_& model, const SceneLight& light, int width, int height)
         : canvas(width, height, GL_R16),
-          shadows(map_side),
+          shadows(std::max(kSmallestMap, light.shadow_map_px)),
           batches(model),
-          scene(linkProgram(sceneVertexShader(), sceneFragmentShader())),
-          depth(linkProgram(depthVertexShader(), depthFragmentShader())) {}
+          programs(light) {}
     GlCanvas canvas;
     GlDepthMap shadows;
     SolidBatches batches;
-    unsigned scene;
-    unsigned depth;
+    ScenePrograms programs;
   };
 
   EglContext egl;
@@ -115,10 +90,9 @@ struct Renderer::Impl {
 Renderer::Impl::Impl(const mjModel_& model, const SceneLight& lamps, int width, int height)
     : light(lamps), key_clip(clipFromKey(lamps.towards_key)) {
   const EglContext::Current current(egl);
-  gl.emplace(model, width, height, std::max(kSmallestMap, light.shadow_map_px));
+  gl.emplace(model, light, width, height);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
-  setLight();
 }
 
 Renderer::Impl::~Impl() {
@@ -126,73 +100,61 @@ Renderer::Impl::~Impl() {
   gl.reset();
 }
 
-void Renderer::Impl::setLight() const {
-  const unsigned program = gl->scene;
-  glUseProgram(program);
-  setVector(program, "towards_key", light.towards_key);
-  setVector(program, "towards_fill", light.towards_fill);
-  glUniform4f(glGetUniformLocation(program, "lamps"), static_cast<float>(light.key),
-              static_cast<float>(light.fill), static_cast<float>(light.sky),
-              static_cast<float>(light.ground));
-  setNumber(program, "tubes", light.tubes);
-  // Half a metre of the cell is this much of the map; four places that far apart.
-  const double map_per_metre = 0.5 * key_clip.row(0).head<3>().norm();
-  setNumber(program, "shadow_reach",
-            light.shadow_map_px > 0 ? light.softness * map_per_metre : 0.0);
-  const double texel = 1.0 / (map_per_metre * gl->shadows.side());
-  setNumber(program, "shadow_bias", 1.5 * texel + light.softness);
-  glUniform1i(glGetUniformLocation(program, "print"), 0);
-  glUniform1i(glGetUniformLocation(program, "shadow_map"), 1);
-}
-
 void Renderer::Impl::drawShadows() {
   gl->shadows.begin();
-  glUseProgram(gl->depth);
+  gl->programs.useDepth(key_clip.cast<float>());
   glDisable(GL_CULL_FACE);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.0F, 8.0F);
-  setMatrix(gl->depth, "to_clip", key_clip);
   wanted.resize(solids.size());
   std::transform(solids.begin(), solids.end(), wanted.begin(),
-                 [](const Solid& solid) { return isSheet(solid) ? 0 : 1; });
-  gl->batches.draw(solids, wanted, Eigen::Vector3d::Zero(), [](SolidBatches::TextureKind) {});
+                 [](const Solid& solid) { return solid.isSheet() ? 0 : 1; });
+  gl->batches.draw(solids, wanted, Eigen::Vector3d::Zero(), [](TextureKind, bool) {});
   glDisable(GL_POLYGON_OFFSET_FILL);
   glEnable(GL_CULL_FACE);
 }
 
-void Renderer::Impl::drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane,
-                              const Window& part, const std::array<float, 4>& grey_weights) {
-  // The projection spreads the plane over the whole canvas; its first pixels are the plane's.
-  const Window whole{plane.x, plane.y, canvas.width(), canvas.height()};
-  canvas.begin(part.x - plane.x, part.y - plane.y, part.width, part.height);
-  glFrontFace(GL_CW);  // rows go downwards
-  const unsigned program = gl->scene;
-  glUseProgram(program);
-  setMatrix(program, "to_clip", clipFromEye(eye, whole));
+/// What the programs have to know to draw the plane from the canvas's first pixel on.
+ScenePrograms::View Renderer::Impl::viewOf(const Pinhole& eye, const Window& plane) const {
   Eigen::Matrix4d from_eye = Eigen::Matrix4d::Identity();
   from_eye.topRightCorner<3, 1>() = eye.fMc.translation();
   Eigen::Matrix4d map_from_clip = 0.5 * Eigen::Matrix4d::Identity();
   map_from_clip.topRightCorner<3, 1>().setConstant(0.5);
   map_from_clip(3, 3) = 1.0;
-  setMatrix(program, "to_shadow", map_from_clip * key_clip * from_eye);
-  glUniform4fv(glGetUniformLocation(program, "grey_weights"), 1, grey_weights.data());
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, gl->shadows.texture());
+  const double metres_per_texel = 2.0 / (key_clip.row(0).head<3>().norm() * gl->shadows.side());
+  ScenePrograms::View view;
+  view.to_clip = clipFromEye(eye, plane).cast<float>();
+  view.to_shadow = (map_from_clip * key_clip * from_eye).cast<float>();
+  view.shadow_bias = static_cast<float>(kBiasTexels * metres_per_texel);
+  view.white = kWhite / 65535.0F;
+  return view;
+}
+
+void Renderer::Impl::chooseVisible(const Pinhole& eye, const Window& part) {
   const PlaneBox limit{part.x - 1.0, part.y - 1.0, static_cast<double>(part.x + part.width),
                        static_cast<double>(part.y + part.height)};
   wanted.resize(solids.size());
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const PlaneBox box = footprint(solids[i], eye, limit);
-    wanted[i] = box.left <= limit.right && box.right >= limit.left && box.top <= limit.bottom &&
-                        box.bottom >= limit.top
-                    ? 1
-                    : 0;
+    const bool seen = box.left <= limit.right && box.right >= limit.left &&
+                      box.top <= limit.bottom && box.bottom >= limit.top;
+    wanted[i] = seen ? 1 : 0;
   }
-  const GLint kind = glGetUniformLocation(program, "texture_kind");
-  gl->batches.draw(solids, wanted, eye.fMc.translation(),
-                   [kind](SolidBatches::TextureKind texture) {
-                     glUniform1i(kind, static_cast<GLint>(texture));
-                   });
+}
+
+void Renderer::Impl::drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane,
+                              const Window& part, bool colour) {
+  canvas.begin(part.x - plane.x, part.y - plane.y, part.width, part.height);
+  glFrontFace(GL_CW);  // rows go downwards
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, gl->shadows.texture());
+  ScenePrograms::View view = viewOf(eye, {plane.x, plane.y, canvas.width(), canvas.height()});
+  view.colour = colour;
+  gl->programs.setView(view);
+  chooseVisible(eye, part);
+  gl->batches.draw(
+      solids, wanted, eye.fMc.translation(),
+      [this](TextureKind texture, bool specular) { gl->programs.use(texture, specular); });
 }
 
 Renderer::Renderer(const mjModel_& model, const SceneLight& light, int width, int height)
@@ -211,7 +173,7 @@ void Renderer::drawGrey(const Pinhole& eye, const Window& plane, const Window& p
                         std::vector<std::uint16_t>& grey) {
   const EglContext::Current current(impl_->egl);
   const GlCanvas& canvas = impl_->gl->canvas;
-  impl_->drawPart(canvas, eye, plane, part, kGrey);
+  impl_->drawPart(canvas, eye, plane, part, false);
   grey.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
   canvas.read(part.x - plane.x, part.y - plane.y, part.width, part.height, GL_RED,
               GL_UNSIGNED_SHORT, grey.data());
@@ -220,7 +182,7 @@ void Renderer::drawGrey(const Pinhole& eye, const Window& plane, const Window& p
 void Renderer::drawColour(const Pinhole& eye, const Window& plane, ColourImage& image) {
   const EglContext::Current current(impl_->egl);
   const GlCanvas canvas(plane.width, plane.height, GL_RGBA8);
-  impl_->drawPart(canvas, eye, plane, plane, kColour);
+  impl_->drawPart(canvas, eye, plane, plane, true);
   image.width = plane.width;
   image.height = plane.height;
   image.pixels.resize(4U * static_cast<std::size_t>(plane.width) *

@@ -27,7 +27,6 @@ SceneLight sceneLight(const SceneOptions& options, std::uint64_t cell_seed) {
     light.sky = 0.34;
     light.ground = 0.20;
     light.tubes = 1.0;
-    light.softness = 0.003;
   } else {
     light.towards_key = {0.60, 0.75, 0.28};
     light.towards_fill = {0.95, -0.20, 0.25};
@@ -36,7 +35,6 @@ SceneLight sceneLight(const SceneOptions& options, std::uint64_t cell_seed) {
     light.sky = 0.14;
     light.ground = 0.09;
     light.tubes = 0.25;
-    light.softness = 0.0008;
   }
   light.towards_key = turned(light.towards_key.normalized(), chosen.direction_spread, dice);
   light.towards_fill = turned(light.towards_fill.normalized(), chosen.direction_spread, dice);
@@ -46,7 +44,11 @@ SceneLight sceneLight(const SceneOptions& options, std::uint64_t cell_seed) {
   light.sky *= around;
   light.ground *= around;
   light.tubes *= around;
-  light.shadow_map_px = chosen.shadows ? chosen.shadow_map_px : 0;
+  // The shadow's edge is one texel wide; the hall's lamps are wide, and so are their shadows'
+  // edges.
+  const int map_px =
+      chosen.setup == LightSetup::hall ? chosen.shadow_map_px / 2 : chosen.shadow_map_px;
+  light.shadow_map_px = chosen.shadows ? map_px : 0;
   return light;
 }
 

@@ -20,7 +20,6 @@ struct SceneLight {
   double sky = 0.0;       ///< surroundings, on a white surface that faces up
   double ground = 0.0;    ///< surroundings, on a white surface that faces down
   double tubes = 0.0;     ///< brightness of the lamp rows that polished steel mirrors
-  double softness = 0.0;  ///< half width of the shadows' edges [m]
   int shadow_map_px = 0;  ///< side of the shadow map [px]; 0: no shadows
 };
 

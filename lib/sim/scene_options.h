@@ -22,7 +22,8 @@ struct LightOptions {
   double brightness_spread = 0.08;  ///< each lamp's own factor is 1 + uniform(-s, +s)
   double direction_spread = 0.05;   ///< each lamp stands turned by up to this [rad]
   bool shadows = true;
-  int shadow_map_px = 2048;  ///< side of the shadow map, 256 to 4096 [px]
+  /// Side of the shadow map, 256 to 4096 [px]; the hall uses half of it, for soft edges.
+  int shadow_map_px = 2048;
 };
 
 /// plain: a mildly stained wall. textured: panels, joints and stains of strong contrast.

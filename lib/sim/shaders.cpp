@@ -11,8 +11,10 @@
 namespace ringhook {
 namespace {
 
+constexpr const char* kVersion = "#version 330\n";
+
 // A vertex of a unit mesh, and the solid that it belongs to.
-constexpr const char* kPlace = R"(#version 330
+constexpr const char* kPlace = R"(
 layout(location = 0) in vec3 unit_position;
 layout(location = 1) in vec3 unit_normal;
 layout(location = 2) in float unit_end;
@@ -22,7 +24,7 @@ layout(location = 5) in vec3 axis_z;
 layout(location = 6) in vec3 origin;
 layout(location = 7) in vec4 half_size;  // and half length
 layout(location = 8) in vec4 colour;     // and specular
-layout(location = 9) in vec4 finish;     // shininess, texture repeat x and y, unused
+layout(location = 9) in vec3 finish;     // shininess, texture repeat x and y
 vec3 placed(vec3 p) { return p.x * axis_x + p.y * axis_y + p.z * axis_z; }
 vec3 point() {
   return origin + placed(unit_position * half_size.xyz + vec3(0.0, 0.0, unit_end * half_size.w));
@@ -33,63 +35,81 @@ constexpr const char* kSceneVertex = R"(
 uniform mat4 to_clip;
 uniform mat4 to_shadow;
 uniform float shadow_bias;  // along the normal, so that no surface shades itself [m]
+uniform vec3 towards_key;
+uniform vec3 towards_fill;
+uniform vec4 lamps;         // key, fill, sky, ground
+out vec3 in_shadow;
+out TONE always;
+out TONE by_key;
+#if PRINT || PICTURE
+out vec2 place;
+flat out float printed;
+#endif
+#if SPECULAR
 out vec3 from_eye;
 out vec3 normal;
-out vec3 in_shadow;
-out vec2 place;
-flat out vec4 paint;
-flat out float shininess;
-flat out float printed;
+flat out vec2 gloss;
+#endif
 void main() {
   vec3 p = point();
-  from_eye = p;
-  normal = normalize(placed(unit_normal / half_size.xyz));
-  in_shadow = (to_shadow * vec4(p + shadow_bias * normal, 1.0)).xyz;
+  vec3 n = normalize(placed(unit_normal / half_size.xyz));
+  in_shadow = (to_shadow * vec4(p + shadow_bias * n, 1.0)).xyz;
+#if COLOUR
+  TONE albedo = colour.rgb;
+#else
+  TONE albedo = dot(colour.rgb, vec3(0.299, 0.587, 0.114));  // luma of ITU-R BT.601
+#endif
+  float around = mix(lamps.w, lamps.z, 0.5 + 0.5 * n.z);
+  always = albedo * (around + lamps.y * max(dot(n, towards_fill), 0.0));
+  by_key = albedo * (lamps.x * max(dot(n, towards_key), 0.0));
+#if PRINT || PICTURE
   place = vec2(0.5 + 0.5 * unit_position.x, 0.5 - 0.5 * unit_position.y) * finish.yz;
   printed = abs(unit_normal.z) > 0.5 ? 1.0 : 0.0;
-  paint = colour;
-  shininess = finish.x;
+#endif
+#if SPECULAR
+  from_eye = p;
+  normal = n;
+  gloss = vec2(colour.a, 4.0 + 124.0 * finish.x);
+#endif
   gl_Position = to_clip * vec4(p, 1.0);
 }
 )";
 
-constexpr const char* kSceneFragment = R"(#version 330
-in vec3 from_eye;
-in vec3 normal;
+constexpr const char* kSceneFragment = R"(
 in vec3 in_shadow;
-in vec2 place;
-flat in vec4 paint;
-flat in float shininess;
-flat in float printed;
+in TONE always;
+in TONE by_key;
 uniform sampler2D print;
 uniform sampler2DShadow shadow_map;
-uniform int texture_kind;    // 0 none, 1 printed pattern, 2 smooth picture
-uniform vec3 towards_key;
-uniform vec3 towards_fill;
-uniform vec4 lamps;          // key, fill, sky, ground
-uniform float tubes;
-uniform float shadow_reach;  // in the shadow map, 0: no shadows
-uniform vec4 grey_weights;   // of red, green, blue; 0: keep colour; then the scale
+uniform float white;
 out vec4 result;
 
-vec3 printAt(vec2 at) {
-  if (texture_kind == 2) return texture(print, at).rgb;
+#if PRINT
+in vec2 place;
+flat in float printed;
+float onSurface() {
   vec2 size = vec2(textureSize(print, 0));
-  vec2 texel = at * size;
+  vec2 texel = place * size;
   vec2 width = max(fwidth(texel), vec2(1e-6));
   vec2 border = floor(texel + 0.5);
-  return textureLod(print, (border + clamp((texel - border) / width, -0.5, 0.5)) / size, 0.0).rgb;
+  vec2 at = (border + clamp((texel - border) / width, -0.5, 0.5)) / size;
+  return mix(1.0, textureLod(print, at, 0.0).r, printed);
 }
+#elif PICTURE
+in vec2 place;
+flat in float printed;
+float onSurface() { return mix(1.0, textureLod(print, place, 0.0).r, printed); }
+#else
+float onSurface() { return 1.0; }
+#endif
 
-float lit() {
-  if (shadow_reach <= 0.0) return 1.0;
-  float sum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    vec2 offset = shadow_reach * vec2((i & 1) - 0.5, (i >> 1) - 0.5);
-    sum += texture(shadow_map, in_shadow + vec3(offset, 0.0));
-  }
-  return 0.25 * sum;
-}
+#if SPECULAR
+in vec3 from_eye;
+in vec3 normal;
+flat in vec2 gloss;
+uniform vec3 towards_key;
+uniform vec4 lamps;
+uniform float tubes;
 
 /// Rows of lamps under the roof, as polished metal mirrors them.
 float mirrored(vec3 ray) {
@@ -98,22 +118,29 @@ float mirrored(vec3 ray) {
   return 0.15 + 0.20 * ray.z + lamp;
 }
 
-void main() {
+float shine(float lit) {
   vec3 n = normalize(normal);
-  vec3 albedo = paint.rgb;
-  if (texture_kind != 0 && printed > 0.5) albedo *= printAt(place);
-  float facing = dot(n, towards_key);
-  float key = facing > 0.0 ? lamps.x * lit() : 0.0;
-  float ambient = mix(lamps.w, lamps.z, 0.5 + 0.5 * n.z);
-  vec3 c = albedo * (ambient + key * facing + lamps.y * max(dot(n, towards_fill), 0.0));
-  if (paint.a > 0.0) {
-    vec3 v = normalize(-from_eye);
-    float half_angle = max(dot(n, normalize(v + towards_key)), 0.0);
-    float exponent = 4.0 + 124.0 * shininess;
-    c += paint.a * (key * pow(half_angle, exponent) + tubes * mirrored(reflect(-v, n)));
-  }
-  float grey = dot(c, grey_weights.rgb);
-  result = grey_weights.r > 0.0 ? vec4(grey * grey_weights.a) : vec4(c, 1.0);
+  vec3 v = normalize(-from_eye);
+  float half_angle = max(dot(n, normalize(v + towards_key)), 0.0);
+  float key = dot(n, towards_key) > 0.0 ? lit * lamps.x : 0.0;
+  return gloss.x * (key * pow(half_angle, gloss.y) + tubes * mirrored(reflect(-v, n)));
+}
+#else
+float shine(float lit) { return 0.0; }
+#endif
+
+void main() {
+#if SHADOWS
+  float lit = texture(shadow_map, in_shadow);
+#else
+  float lit = 1.0;
+#endif
+  TONE tone = onSurface() * (always + lit * by_key) + shine(lit);
+#if COLOUR
+  result = vec4(tone, 1.0);
+#else
+  result = vec4(white * tone);
+#endif
 }
 )";
 
@@ -122,9 +149,19 @@ uniform mat4 to_clip;
 void main() { gl_Position = to_clip * vec4(point(), 1.0); }
 )";
 
-constexpr const char* kDepthFragment = R"(#version 330
+constexpr const char* kDepthFragment = R"(
 void main() {}
 )";
+
+std::string choices(const SurfaceKind& kind) {
+  const auto choice = [](const char* name, bool chosen) {
+    return std::string("#define ") + name + (chosen ? " 1\n" : " 0\n");
+  };
+  return choice("PRINT", kind.texture == TextureKind::print) +
+         choice("PICTURE", kind.texture == TextureKind::picture) +
+         choice("SPECULAR", kind.specular) + choice("SHADOWS", kind.shadows) +
+         choice("COLOUR", kind.colour) + "#define TONE " + (kind.colour ? "vec3\n" : "float\n");
+}
 
 unsigned compile(GLenum kind, const std::string& text) {
   const unsigned shader = glCreateShader(kind);
@@ -143,10 +180,17 @@ unsigned compile(GLenum kind, const std::string& text) {
 
 }  // namespace
 
-std::string sceneVertexShader() { return std::string(kPlace) + kSceneVertex; }
-std::string sceneFragmentShader() { return kSceneFragment; }
-std::string depthVertexShader() { return std::string(kPlace) + kDepthVertex; }
-std::string depthFragmentShader() { return kDepthFragment; }
+std::string sceneVertexShader(const SurfaceKind& kind) {
+  return kVersion + choices(kind) + kPlace + kSceneVertex;
+}
+
+std::string sceneFragmentShader(const SurfaceKind& kind) {
+  return kVersion + choices(kind) + kSceneFragment;
+}
+
+std::string depthVertexShader() { return std::string(kVersion) + kPlace + kDepthVertex; }
+
+std::string depthFragmentShader() { return std::string(kVersion) + kDepthFragment; }
 
 unsigned linkProgram(const std::string& vertex, const std::string& fragment) {
   const unsigned program = glCreateProgram();

@@ -14,11 +14,12 @@
 namespace ringhook {
 namespace {
 
-constexpr std::array<SolidShape, 4> kShapes{SolidShape::box, SolidShape::capsule, SolidShape::wire,
-                                            SolidShape::cylinder};
+constexpr std::array<SolidShape, 6> kShapes{SolidShape::box,          SolidShape::capsule,
+                                            SolidShape::wire,         SolidShape::cylinder,
+                                            SolidShape::slimCylinder, SolidShape::rod};
 /// Floats of each attribute of an instance, from location 3 on: see shaders.cpp.
-constexpr std::array<int, 7> kAttributes{3, 3, 3, 3, 4, 4, 4};
-constexpr int kInstanceFloats = 24;
+constexpr std::array<int, 7> kAttributes{3, 3, 3, 3, 4, 4, 3};
+constexpr int kInstanceFloats = 23;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -36,8 +37,7 @@ void appendInstance(const Solid& solid, const Eigen::Vector3d& origin, std::vect
   append(values, solid.half);
   values.push_back(static_cast<float>(solid.half_length));
   values.insert(values.end(), solid.colour.begin(), solid.colour.end());
-  values.insert(values.end(),
-                {solid.specular, solid.shininess, solid.repeat[0], solid.repeat[1], 0.0F});
+  values.insert(values.end(), {solid.specular, solid.shininess, solid.repeat[0], solid.repeat[1]});
 }
 
 }  // namespace
@@ -101,45 +101,51 @@ void SolidBatches::makeTexture(const mjModel_& model, int id) {
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, model.tex_width[id], model.tex_height[id], 0, GL_RGB,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, model.tex_width[id], model.tex_height[id], 0, GL_RGB,
                GL_UNSIGNED_BYTE, model.tex_rgb + model.tex_adr[id]);
-  glGenerateMipmap(GL_TEXTURE_2D);
   const GLint wrap = print ? GL_CLAMP_TO_EDGE : GL_REPEAT;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                  print ? GL_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   textures_.push_back(texture);
   kinds_.push_back(print ? TextureKind::print : TextureKind::picture);
 }
 
+SolidBatches::Kind SolidBatches::kindOf(const Solid& solid) {
+  return {solid.isSheet(), solid.shape, solid.texture, solid.specular > 0.0F};
+}
+
 void SolidBatches::draw(const std::vector<Solid>& solids, const std::vector<char>& wanted,
                         const Eigen::Vector3d& origin, const Prepare& prepare) {
-  glActiveTexture(GL_TEXTURE0);
-  for (const SolidShape shape : kShapes) {
-    for (int texture = -1; texture < static_cast<int>(textures_.size()); ++texture) {
-      values_.clear();
-      for (std::size_t i = 0; i < solids.size(); ++i) {
-        if (wanted[i] != 0 && solids[i].shape == shape && solids[i].texture == texture) {
-          appendInstance(solids[i], origin, values_);
-        }
-      }
-      if (values_.empty()) {
-        continue;
-      }
-      const auto slot = static_cast<std::size_t>(std::max(texture, 0));
-      glBindTexture(GL_TEXTURE_2D, texture < 0 ? 0 : textures_[slot]);
-      prepare(texture < 0 ? TextureKind::none : kinds_[slot]);
-      const Mesh& mesh = meshes_[static_cast<std::size_t>(shape)];
-      glBindVertexArray(mesh.array);
-      glBindBuffer(GL_ARRAY_BUFFER, instances_);
-      glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values_.size() * sizeof(float)),
-                   values_.data(), GL_STREAM_DRAW);
-      glDrawElementsInstanced(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr,
-                              static_cast<GLsizei>(values_.size() / kInstanceFloats));
+  for (auto& [kind, values] : batches_) {
+    values.clear();
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (wanted[i] != 0) {
+      appendInstance(solids[i], origin, batches_[kindOf(solids[i])]);
     }
   }
+  for (const auto& [kind, values] : batches_) {
+    if (!values.empty()) {
+      drawBatch(kind, values, prepare);
+    }
+  }
+}
+
+void SolidBatches::drawBatch(const Kind& kind, const std::vector<float>& values,
+                             const Prepare& prepare) {
+  const auto slot = static_cast<std::size_t>(std::max(kind.texture, 0));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, kind.texture < 0 ? 0 : textures_[slot]);
+  prepare(kind.texture < 0 ? TextureKind::none : kinds_[slot], kind.specular);
+  const Mesh& mesh = meshes_[static_cast<std::size_t>(kind.shape)];
+  glBindVertexArray(mesh.array);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(float)),
+               values.data(), GL_STREAM_DRAW);
+  glDrawElementsInstanced(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr,
+                          static_cast<GLsizei>(values.size() / kInstanceFloats));
 }
 
 }  // namespace ringhook

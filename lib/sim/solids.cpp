@@ -10,7 +10,8 @@ namespace ringhook {
 namespace {
 
 constexpr double kNearest = 0.05;       // in front of a camera [m]
-constexpr double kThinWire = 0.008;     // radius below which few faces will do [m]
+constexpr double kThin = 0.008;         // radius below which few faces will do [m]
+constexpr double kSlim = 0.042;         // radius below which some faces will do [m]
 constexpr double kEndlessPlane = 10.0;  // half side of a plane without a size [m]
 constexpr int kDrawnGroups = 3;
 
@@ -39,16 +40,18 @@ void setShape(const mjModel& model, int geom, Solid& solid) {
       solid.fMs.translation() -= 0.001 * solid.fMs.linear().col(2);
       break;
     case mjGEOM_CAPSULE:
-      solid.shape = size[0] < kThinWire ? SolidShape::wire : SolidShape::capsule;
+      solid.shape = size[0] < kThin ? SolidShape::wire : SolidShape::capsule;
       solid.half = ball;
       solid.half_length = size[1];
       break;
     case mjGEOM_SPHERE:
-      solid.shape = size[0] < kThinWire ? SolidShape::wire : SolidShape::capsule;
+      solid.shape = size[0] < kThin ? SolidShape::wire : SolidShape::capsule;
       solid.half = ball;
       break;
     case mjGEOM_CYLINDER:
-      solid.shape = SolidShape::cylinder;
+      solid.shape = size[0] < kThin   ? SolidShape::rod
+                    : size[0] < kSlim ? SolidShape::slimCylinder
+                                      : SolidShape::cylinder;
       solid.half = {size[0], size[0], size[1]};
       break;
     default:

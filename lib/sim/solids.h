@@ -16,8 +16,9 @@ struct mjData_;
 
 namespace ringhook {
 
-/// Also the order of the renderer's meshes. wire: a capsule too thin to need many faces.
-enum class SolidShape { box, capsule, wire, cylinder };
+/// Also the order of the renderer's meshes. The thinner a round thing, the fewer faces it needs:
+/// a wire is a thin capsule; a slim cylinder and a rod are thinner cylinders.
+enum class SolidShape { box, capsule, wire, cylinder, slimCylinder, rod };
 
 struct Solid {
   SolidShape shape = SolidShape::box;
@@ -34,6 +35,8 @@ struct Solid {
   [[nodiscard]] Eigen::Vector3d reach() const {
     return half + Eigen::Vector3d(0.0, 0.0, half_length);
   }
+  /// Wall or floor: behind everything, it hides no lamp.
+  [[nodiscard]] bool isSheet() const { return (reach().array() > 1.0).count() >= 2; }
 };
 
 /// All solids of the model where `data` has them: its geoms' poses must be up to date. Two lists

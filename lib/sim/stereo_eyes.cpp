@@ -1,6 +1,7 @@
 #include "sim/stereo_eyes.h"
 
 #include <algorithm>
+#include <future>
 
 #include "core/error.h"
 #include "sim/camera_eye.h"
@@ -44,6 +45,12 @@ struct StereoEyes::Impl {
         renderer(*mujoco.model, sceneLight(cell.options().scene, cell.options().seed),
                  std::max(eyes[0].plane().width, eyes[1].plane().width),
                  std::max(eyes[0].plane().height, eyes[1].plane().height)) {}
+
+  void collect(std::size_t side, const std::array<Window, 2>& windows, double weight) {
+    if (!windows[side].empty()) {
+      eyes[side].collect(renderer, weight);
+    }
+  }
 
   CellWorld& world;
   MujocoHandles mujoco;
@@ -91,20 +98,25 @@ std::array<GrayImage, 2> StereoEyes::develop(const CapturedExposure& exposure,
   for (std::size_t side = 0; side < 2; ++side) {
     my.eyes[side].begin(windows[side], exposure.moving[side]);
   }
+  const std::uint64_t seed = my.world.options().seed;
+  std::array<GrayImage, 2> images;
+  std::future<GrayImage> left;
   for (std::size_t i = 0; i < exposure.weights.size(); ++i) {
     my.renderer.setScene(exposure.solids[i]);
-    for (std::size_t side = 0; side < 2; ++side) {
-      if (!windows[side].empty()) {
-        my.eyes[side].collect(my.renderer, exposure.weights[i]);
-      }
+    my.collect(0, windows, exposure.weights[i]);
+    if (i + 1 == exposure.weights.size() && !windows[0].empty()) {
+      left = std::async(std::launch::async,  // while the right side is drawn
+                        [&my, seed, frame] {
+                          return my.eyes[0].develop(my.sensor, {seed, frame, 0});
+                        });
     }
+    my.collect(1, windows, exposure.weights[i]);
   }
-  std::array<GrayImage, 2> images;
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!windows[side].empty()) {
-      const ExposureKey key{my.world.options().seed, frame, static_cast<int>(side)};
-      images[side] = my.eyes[side].develop(my.sensor, key);
-    }
+  if (!windows[1].empty()) {
+    images[1] = my.eyes[1].develop(my.sensor, {seed, frame, 1});
+  }
+  if (left.valid()) {
+    images[0] = left.get();
   }
   return images;
 }

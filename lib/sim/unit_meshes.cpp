@@ -99,11 +99,15 @@ UnitMesh cylinder(int slices) {
 UnitMesh unitMesh(SolidShape shape) {
   switch (shape) {
     case SolidShape::capsule:
-      return capsule(48, 12);
+      return capsule(40, 10);
     case SolidShape::wire:
-      return capsule(12, 3);
+      return capsule(10, 2);
     case SolidShape::cylinder:
       return cylinder(48);
+    case SolidShape::slimCylinder:
+      return cylinder(20);
+    case SolidShape::rod:
+      return cylinder(12);
     case SolidShape::box:
       break;
   }
