@@ -70,7 +70,7 @@ void printEnd(const RecordJob& job, const RecordReport& report) {
   std::printf("%zu frames, %.2f s from first to last, target %s\n", report.frames,
               report.duration_s, report.target.c_str());
   if (report.before > 0) {
-    std::printf("%zu frames before or between hooks were looked at and not stored\n",
+    std::printf("%zu frames were looked at and not stored: no hook was well tracked in them\n",
                 report.before);
   }
   if (report.left_out + report.missed > 0) {
@@ -133,7 +133,7 @@ void addWhatToRecord(CLI::App& command, RecordArguments& arguments) {
       ->type_name("HZ");
   command
       .add_option("--follow", arguments.follow,
-                  "Windows follow a hook, and only frames of hooks are stored")
+                  "Windows follow a hook; stored is what shows it well tracked")
       ->check(CLI::IsMember({"marker", "edges"}));
   command
       .add_option("--wait", arguments.job.wait_s, "For the hook that --follow looks for, seconds")

@@ -12,9 +12,8 @@ std::string sizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// An image without an offset must fill the full image, one with an offset must lie inside.
-void checkFits(const Window& window, const Window& full, const std::string& name) {
-  const bool placed = window.x != 0 || window.y != 0;
+/// An image without a place must fill the full image, one with a place must lie inside.
+void checkFits(const Window& window, bool placed, const Window& full, const std::string& name) {
   const bool inside = intersect(window, full) == window;
   if (inside && (placed || window == full)) {
     return;
@@ -53,9 +52,9 @@ std::optional<StereoFrame> ReplayStereoCamera::grab(double /*timeout_s*/) {
   if (!read) {
     return std::nullopt;
   }
-  checkFits(read->frame.left_window, full_, read->left_name);
+  checkFits(read->frame.left_window, read->placed, full_, read->left_name);
   if (!read->frame.right.empty()) {
-    checkFits(read->frame.right_window, full_, read->right_name);
+    checkFits(read->frame.right_window, read->placed, full_, read->right_name);
   }
   return std::move(read->frame);
 }

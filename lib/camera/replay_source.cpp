@@ -85,7 +85,7 @@ class SequenceSource : public ReplaySource {
       return std::nullopt;
     }
     const SequenceFrame& stored = sequence_.frames[next_++];
-    ReplayedFrame read{{}, stored.left.string(), stored.right.string()};
+    ReplayedFrame read{{}, stored.placed, stored.left.string(), stored.right.string()};
     StereoFrame& frame = read.frame;
     frame.time = stored.time;
     frame.index = stored.frame;
@@ -122,7 +122,7 @@ class VideoSource : public ReplaySource {
       finished_ = true;
       return std::nullopt;
     }
-    ReplayedFrame read{{}, left_name_, right_name_};
+    ReplayedFrame read{{}, false, left_name_, right_name_};
     StereoFrame& frame = read.frame;
     frame.index = next_;
     frame.time = Time::fromSeconds(static_cast<double>(next_++) / rate_hz_);

@@ -16,6 +16,7 @@ namespace ringhook {
 /// A pair as read, not yet checked against the rig.
 struct ReplayedFrame {
   StereoFrame frame;
+  bool placed = false;     ///< the windows' places were stored
   std::string left_name;   ///< file, for messages
   std::string right_name;  ///< file, for messages; empty for one camera
 };

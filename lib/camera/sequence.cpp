@@ -124,6 +124,7 @@ std::vector<SequenceFrame> readFrames(const fs::path& file, const fs::path& imag
     frame.left_y_px = offsetOf(table, row, "left_y_px");
     frame.right_x_px = offsetOf(table, row, "right_x_px");
     frame.right_y_px = offsetOf(table, row, "right_y_px");
+    frame.placed = table.has("left_x_px") && table.has("left_y_px");
     before = frame.time;
     frames.push_back(std::move(frame));
   }

@@ -30,6 +30,7 @@ struct SequenceFrame {
   int left_y_px = 0;            ///< row of it [px]
   int right_x_px = 0;           ///< column of the right image's window in the full image [px]
   int right_y_px = 0;           ///< row of it [px]
+  bool placed = false;          ///< the table tells these, so images may be parts of the full one
 };
 
 /// A pose with its time; which pose it is, the field that holds it says.

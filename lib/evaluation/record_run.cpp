@@ -149,7 +149,7 @@ class Recording {
       const VisionReport seen = vision_->process(*frame);
       camera.setWindows(vision_->windows()[0], vision_->windows()[1]);
       camera.setFrameRate(vision_->rateHz());
-      if (seen.state == VisionState::kSearching || (!recorder_ && !seen.fix)) {
+      if (seen.state != VisionState::kTracking || (!recorder_ && !seen.fix)) {
         ++report_.before;
         last_index_.reset();
       } else {

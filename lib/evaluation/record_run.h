@@ -3,8 +3,9 @@
 /// \file
 /// The job of `ringhook record`: frames, arm states and, in a simulated cell, the truth, from a
 /// cell's devices into a sequence folder. The windows stay as they are told, or follow a hook as
-/// the servo task's vision does. Reads no clock: on simulated devices everything it writes is a
-/// function of the cell file, the scenario, the seed and the job, byte by byte.
+/// the servo task's vision does; then frames are stored while the hook's estimate is fit to act
+/// upon. Reads no clock: on simulated devices everything it writes is a function of the cell file,
+/// the scenario, the seed and the job, byte by byte.
 
 #include <array>
 #include <atomic>
@@ -42,7 +43,7 @@ struct RecordReport {
   std::size_t left_out = 0;       ///< since the disk was too slow
   std::size_t missed = 0;         ///< numbers that the camera left out
   std::size_t without_truth = 0;  ///< simulated frames that show no hook
-  std::size_t before = 0;         ///< frames seen before or between hooks, not stored
+  std::size_t before = 0;         ///< frames without a hook well tracked, not stored
   double duration_s = 0.0;        ///< from the first to the last stored frame
   std::string target;             ///< name of the target's file in the folder
   std::string scenario;           ///< empty for a real cell

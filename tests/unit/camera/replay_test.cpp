@@ -57,6 +57,7 @@ TEST(Replay, RefusesAWindowThatLeavesTheImage) {
   SequenceFrame frame;
   frame.left = folder.path() / "a.png";
   frame.left_x_px = 6;
+  frame.placed = true;
   sequence.frames = {frame};
   ReplayStereoCamera camera(sequence, 10, 10);
   EXPECT_THAT(messageOf<InputError>([&] { (void)camera.grab(0.0); }), HasSubstr("column 6"));

@@ -74,6 +74,17 @@ TEST(SequenceWriter, WhatWasWrittenIsReplayed) {
   EXPECT_TRUE(camera.finished());
 }
 
+TEST(SequenceWriter, AWindowInTheCornerOfTheImageIsReplayed) {
+  const ScratchFolder folder;
+  SequenceWriter writer(folder.path(), someInfo(), smallRig());
+  StereoFrame frame = numberedFrame(0);
+  frame.left_window = {0, 0, 8, 6};
+  frame.right_window = {0, 0, 9, 5};
+  writer.addFrame(frame);
+  ReplayStereoCamera camera(openSequence(folder.path()), 32, 24);
+  EXPECT_EQ(camera.grab(0.0)->left_window, frame.left_window);
+}
+
 TEST(SequenceWriter, AnInterruptedRunLeavesAValidSequence) {
   const ScratchFolder folder;
   try {
