@@ -42,7 +42,8 @@ CellOptions worldOptions(const CellJob& job, const Scenario& scenario) {
   return options;
 }
 
-CellServerOptions serverOptions(const CellJob& job, const CellConfig& cell) {
+CellServerOptions serverOptions(const CellJob& job, const CellConfig& cell,
+                                const Scenario& scenario) {
   const ControllerDevice& arm = cell.devices.arm;
   CellServerOptions options;
   options.arm.address = arm.address;
@@ -52,6 +53,7 @@ CellServerOptions serverOptions(const CellJob& job, const CellConfig& cell) {
   options.arm.seed = job.seed;
   options.gripper = {arm.gripper_module, arm.gripper_pin};
   options.cameras = {cell.devices.cameras.left, cell.devices.cameras.right, job.lost_packets};
+  options.sensor = scenario.camera.sensor;
   options.transport_delay_s = cell.vision.transport_delay_s;
   return options;
 }
@@ -100,9 +102,9 @@ void printRings(const CellTruth& cell) {
 nlohmann::ordered_json serveCell(const CellJob& job) {
   const CellConfig cell = networkCell(job.cell);
   const Scenario scenario = loadScenario(scenarioFile(cell, job.scenario));
-  const StereoRig true_rig = disturbedRig(loadRig(cell.rig), job.seed);
+  const StereoRig true_rig = disturbedRig(loadRig(cell.rig), job.seed, scenario.calibration);
   CellWorld world(worldOptions(job, scenario));
-  CellServer server(world, true_rig, serverOptions(job, cell));
+  CellServer server(world, true_rig, serverOptions(job, cell, scenario));
   std::optional<TruthLog> log;
   if (!job.truth.empty()) {
     log.emplace(job.truth, world, true_rig);

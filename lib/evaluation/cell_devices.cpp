@@ -6,9 +6,7 @@
 #include "core/file_kind.h"
 #include "cycle/network_devices.h"
 #include "sim/nominal_rig.h"
-#include "sim/scenario.h"
 #include "sim/sim_arm.h"
-#include "sim/sim_stereo_camera.h"
 
 namespace ringhook {
 
@@ -23,6 +21,13 @@ std::filesystem::path scenarioFile(const CellConfig& cell, const std::string& na
   return file;
 }
 
+SimCameraOptions simCameraOptions(const CellConfig& cell, const Scenario& scenario) {
+  SimCameraOptions options = scenario.camera;
+  options.rate_hz = cell.vision.search_rate_hz;
+  options.transport_delay_s = cell.vision.transport_delay_s;
+  return options;
+}
+
 namespace {
 
 void openNetwork(const CellConfig& cell, CellDevices& devices) {
@@ -34,13 +39,11 @@ void openSimulation(const CellConfig& cell, const CellChoice& choice, CellDevice
   Scenario scenario = loadScenario(scenarioFile(cell, choice.scenario));
   scenario.cell.seed = choice.seed;
   devices.scenario = scenario.name;
-  devices.true_rig = disturbedRig(devices.told_rig, choice.seed);
+  devices.true_rig = disturbedRig(devices.told_rig, choice.seed, scenario.calibration);
   devices.world = std::make_unique<CellWorld>(scenario.cell);
   devices.arm = std::make_unique<SimArm>(*devices.world);
-  SimCameraOptions options;
-  options.rate_hz = cell.vision.search_rate_hz;
-  options.transport_delay_s = cell.vision.transport_delay_s;
-  devices.camera = std::make_unique<SimStereoCamera>(*devices.world, devices.true_rig, options);
+  devices.camera = std::make_unique<SimStereoCamera>(*devices.world, devices.true_rig,
+                                                     simCameraOptions(cell, scenario));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "rig/stereo_rig.h"
 #include "robot/arm.h"
 #include "sim/cell_world.h"
+#include "sim/scenario.h"
 
 namespace ringhook {
 
@@ -31,6 +32,9 @@ struct CellChoice {
   std::string scenario;    ///< name beside the cell's own scenario; empty for the cell's own
   std::uint64_t seed = 1;  ///< of everything random in a simulated cell
 };
+
+/// The simulated cameras of a scenario, at the rate and with the delay that the cell file tells.
+SimCameraOptions simCameraOptions(const CellConfig& cell, const Scenario& scenario);
 
 /// The scenario's file; throws InputError for a name without one.
 std::filesystem::path scenarioFile(const CellConfig& cell, const std::string& name);

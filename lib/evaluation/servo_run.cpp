@@ -80,7 +80,7 @@ class Belt {
         true_rig_(disturbedRig(told_rig_, job.seed, scenario.calibration)),
         world_(worldOptions(scenario, job, first, hooks)),
         arm_(makeArm(world_, job)),
-        camera_(world_, true_rig_, cameraOptions(scenario, cell)),
+        camera_(world_, true_rig_, simCameraOptions(cell, scenario)),
         vision_(cell, told_rig_, job.tracker),
         task_(withCommandDelay(cell, *arm_)),
         witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
@@ -124,13 +124,6 @@ class Belt {
   static fs::path truthFolder(const ServoJob& job, int first) {
     const int belt = 1 + first / kHooksPerBelt;
     return job.out / (belt == 1 ? "truth" : "truth-" + std::to_string(belt));
-  }
-
-  static SimCameraOptions cameraOptions(const Scenario& scenario, const CellConfig& cell) {
-    SimCameraOptions options = scenario.camera;
-    options.rate_hz = cell.vision.search_rate_hz;
-    options.transport_delay_s = cell.vision.transport_delay_s;
-    return options;
   }
 
   ServoWitness::OpenRecording recorder() {
