@@ -135,7 +135,7 @@ std::string pendulumTable(const PendulumExperiment& experiment) {
   std::string text;
   const auto line = [&](const std::vector<std::string>& columns) {
     char row[256];
-    std::snprintf(row, sizeof(row), "%-46s %12s %24s %18s %20s %26s\n", columns[0].c_str(),
+    std::snprintf(row, sizeof(row), "%-46s %11s %13s %13s %15s %16s\n", columns[0].c_str(),
                   columns[1].c_str(), columns[2].c_str(), columns[3].c_str(), columns[4].c_str(),
                   columns[5].c_str());
     text += row;

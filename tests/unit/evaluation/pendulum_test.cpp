@@ -78,7 +78,7 @@ TEST(PendulumWorld, DampedSmallSwingsFollowTheClosedForm) {
   for (const PendulumSample& s : simulatePendulum(options, 10.0)) {
     const double expected = 0.01 * std::exp(-0.25 * s.time_s) *
                             (std::cos(turn * s.time_s) + 0.25 / turn * std::sin(turn * s.time_s));
-    ASSERT_NEAR(s.angle, expected, 2e-6) << s.time_s;
+    ASSERT_NEAR(s.angle, expected, 1e-5) << s.time_s;
   }
 }
 
@@ -122,11 +122,11 @@ TEST(PendulumExperiment, ItsOutputsHoldTheReportsNumbersBesideTheExactOnes) {
   const auto trace = reportPendulum(options, 0.05, 1.0);
   experiment.traces = {{trace, trace, trace}, {trace, trace, trace}};
   const auto json = nlohmann::json::parse(pendulumJson(experiment));
-  EXPECT_NEAR(json["undamped"]["exact_period_s"].get<double>(), 2.13918, 1e-5);
+  EXPECT_NEAR(json["undamped"]["exact_period_s"].get<double>(), 2.139138, 1e-6);
   EXPECT_EQ(json["undamped"]["rows"][0]["energy_change_per_minute_percent"], -0.05);
   EXPECT_FALSE(json["undamped"]["rows"][0].contains("angle_error_10_s_rad"));
-  EXPECT_NE(pendulumTable(experiment).find("+0.0384"), std::string::npos)
-      << "2.14 s against 2.13918 s in percent\n"
+  EXPECT_NE(pendulumTable(experiment).find("+0.0403"), std::string::npos)
+      << "2.14 s against 2.139138 s in percent\n"
       << pendulumTable(experiment);
   const auto folder = std::filesystem::path(testing::TempDir()) / "ringhook_pendulum";
   writePendulumOutputs(folder, experiment);

@@ -11,6 +11,7 @@
 #include "rig/stereo_rig.h"
 #include "sim/cell_world.h"
 #include "sim/nominal_rig.h"
+#include "sim/scenario.h"
 #include "sim/truth.h"
 
 namespace ringhook {
@@ -56,9 +57,9 @@ std::vector<std::map<std::string, std::string>> rowsOf(const fs::path& file) {
 }
 
 /// Takes a ring, drops it, lets it fall to the floor and lie there; sampled every 10 ms.
-void dropRing(const fs::path& folder, double until_s) {
-  CellWorld world{CellOptions{}};
-  TruthLog log(folder, world, disturbedRig(nominalRig(), 1));
+void dropRing(const fs::path& folder, double until_s, const CellOptions& options = {}) {
+  CellWorld world(options);
+  TruthLog log(folder, world, disturbedRig(nominalRig(), options.seed));
   world.every(0.01, 0.0, [&](Time) { log.sample(); });
   world.setGripper(true);
   world.setJointVelocity(JointVector::Constant(0.1), 0.2);
@@ -131,14 +132,28 @@ TEST(TruthLog, AFallenRingLiesOnTheFloorWithItsWeight) {
   EXPECT_NEAR(sum / 100.0, mass * 9.81, 0.02 * mass * 9.81);
 }
 
-TEST(TruthLog, SameSeedWritesTheSameBytes) {
+/// A belt with ripple that starts and stops within the second, everything else as shipped.
+CellOptions hurriedStopAndGo(std::uint64_t seed) {
+  CellOptions options = loadScenario(std::filesystem::path(RINGHOOK_SOURCE_DIR) /
+                                     "app/config/scenarios/stop-and-go.yaml")
+                            .cell;
+  options.seed = seed;
+  options.belt.start_s = 0.05;
+  options.belt.run_s = options.belt.stand_s = {0.5, 0.6};
+  return options;
+}
+
+TEST(TruthLog, SameSeedWritesTheSameBytesAndAnotherOneOthers) {
   const fs::path first = emptyFolder("first");
   const fs::path second = emptyFolder("second");
-  dropRing(first, 0.9);
-  dropRing(second, 0.9);
+  const fs::path other = emptyFolder("other");
+  dropRing(first, 1.2, hurriedStopAndGo(5));
+  dropRing(second, 1.2, hurriedStopAndGo(5));
+  dropRing(other, 1.2, hurriedStopAndGo(6));
   for (const char* name : {"hooks.csv", "rings.csv", "arm.csv", "contacts.csv", "cameras.yaml"}) {
     EXPECT_FALSE(textOf(first / name).empty()) << name;
     EXPECT_EQ(textOf(first / name), textOf(second / name)) << name;
+    EXPECT_NE(textOf(first / name), textOf(other / name)) << name;
   }
 }
 

@@ -104,19 +104,17 @@ TEST(HookAir, InAVacuumNothingIsLost) {
 }
 
 TEST(HookAir, TheDefaultHooksQualityFactorIsPrinted) {
-  for (const double degrees : {3.0, 8.0, 15.0}) {
-    for (int axis = 0; axis < 2; ++axis) {
-      CellOptions options = inAir(axis, degrees * kDegree);
-      options.hook.damping_spread = 0.0;
-      options.hook.pivot_friction = CellOptions{}.hook.pivot_friction;
-      options.hook.pivot_damping = CellOptions{}.hook.pivot_damping;
-      const Decay all = decay(options, axis);
-      const double decrement = std::log(all.first / all.last) / 10.0;
-      std::printf("%2.0f deg about %c: decrement %.4f a period, quality factor %.0f\n", degrees,
-                  "xy"[axis], decrement, std::numbers::pi / decrement);
-      EXPECT_GT(decrement, 0.010);
-      EXPECT_LT(decrement, 0.030);
-    }
+  for (int axis = 0; axis < 2; ++axis) {
+    CellOptions options = inAir(axis, 8.0 * kDegree);
+    options.hook.damping_spread = 0.0;
+    options.hook.pivot_friction = CellOptions{}.hook.pivot_friction;
+    options.hook.pivot_damping = CellOptions{}.hook.pivot_damping;
+    const Decay all = decay(options, axis);
+    const double decrement = std::log(all.first / all.last) / 10.0;
+    std::printf("8 deg about %c: decrement %.4f a period, quality factor %.0f\n", "xy"[axis],
+                decrement, std::numbers::pi / decrement);
+    EXPECT_GT(decrement, 0.010);
+    EXPECT_LT(decrement, 0.025);
   }
 }
 
