@@ -38,16 +38,21 @@ std::size_t indexOf(const Window& window, int x, int y) {
          static_cast<std::size_t>(x - window.x);
 }
 
-/// Bilinear interpolation; (x, y) from the first pixel's centre, one pixel off every border.
-float sampleAt(const std::vector<float>& grey, int width, float x, float y) {
-  const int column = static_cast<int>(x);
-  const int row = static_cast<int>(y);
+/// The whole number below; the rest is exact, wherever the window starts.
+int floorOf(float value) {
+  const int whole = static_cast<int>(value);
+  return whole - (value < static_cast<float>(whole) ? 1 : 0);
+}
+
+/// Bilinear interpolation at a place of the plane that lies one pixel off every border of `seen`.
+float sampleAt(const std::vector<float>& grey, const Window& seen, float x, float y) {
+  const int column = floorOf(x);
+  const int row = floorOf(y);
   const float s = x - static_cast<float>(column);
   const float t = y - static_cast<float>(row);
-  const float* p = &grey[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(column)];
+  const float* p = &grey[indexOf(seen, column, row)];
   const float upper = p[0] + s * (p[1] - p[0]);
-  const float lower = p[width] + s * (p[width + 1] - p[width]);
+  const float lower = p[seen.width] + s * (p[seen.width + 1] - p[seen.width]);
   return upper + t * (lower - upper);
 }
 
@@ -115,13 +120,11 @@ GrayImage CameraEye::develop(const SensorNoise& sensor, const ExposureKey& key) 
   GrayImage image(window_.width, window_.height);
   samples_.resize(static_cast<std::size_t>(window_.width));
   light_.resize(static_cast<std::size_t>(window_.width));
-  const auto left = static_cast<float>(seen_.x);
-  const auto top = static_cast<float>(seen_.y);
   for (int y = 0; y < window_.height; ++y) {
     lens_.row(window_.x, window_.y + y, samples_);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const LensMap::Sample& s = samples_[i];
-      light_[i] = s.light * sampleAt(grey_, seen_.width, s.x - left, s.y - top);
+      light_[i] = s.light * sampleAt(grey_, seen_, s.x, s.y);
     }
     sensor.expose(key, window_.x, window_.y + y, light_.data(), window_.width, image.row(y));
   }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kStandstill = 0.01;  // [px]
 constexpr double kOnePoint = 0.05;    // motion below which mid-exposure will do [px]
+constexpr double kFarOff = 1e5;       // farther off no coordinate is told apart [px]
 constexpr int kMostInstants = 24;
 constexpr int kMargin = 4;  // pixels around what moves, for lens blur and rounding
 
@@ -30,17 +31,23 @@ PlaneBox limitOf(const Window& plane) {
           static_cast<double>(plane.y + plane.height - 1)};
 }
 
-Window around(const PlaneBox& a, const PlaneBox& b) {
-  const int left = static_cast<int>(std::floor(std::min(a.left, b.left))) - kMargin;
-  const int top = static_cast<int>(std::floor(std::min(a.top, b.top))) - kMargin;
-  return {left, top, static_cast<int>(std::ceil(std::max(a.right, b.right))) + kMargin - left + 1,
-          static_cast<int>(std::ceil(std::max(a.bottom, b.bottom))) + kMargin - top + 1};
+Window around(const PlaneBox& box) {
+  const int left = static_cast<int>(std::floor(box.left)) - kMargin;
+  const int top = static_cast<int>(std::floor(box.top)) - kMargin;
+  return {left, top, static_cast<int>(std::ceil(box.right)) + kMargin - left + 1,
+          static_cast<int>(std::ceil(box.bottom)) + kMargin - top + 1};
 }
 
 /// Where a solid passes during the exposure, inside the plane.
 Window passage(const Solid& from, const Solid& to, const Pinhole& eye, const Window& plane) {
   const PlaneBox limit = limitOf(plane);
-  return intersect(around(footprint(from, eye, limit), footprint(to, eye, limit)), plane);
+  const PlaneBox a = footprint(from, eye, limit);
+  const PlaneBox b = footprint(to, eye, limit);
+  const PlaneBox both{std::clamp(std::min(a.left, b.left), -kFarOff, kFarOff),
+                      std::clamp(std::min(a.top, b.top), -kFarOff, kFarOff),
+                      std::clamp(std::max(a.right, b.right), -kFarOff, kFarOff),
+                      std::clamp(std::max(a.bottom, b.bottom), -kFarOff, kFarOff)};
+  return intersect(around(both), plane);
 }
 
 Window unite(const Window& a, const Window& b) {

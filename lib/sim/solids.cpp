@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace ringhook {
 namespace {
@@ -95,7 +95,8 @@ void takeSolids(const mjModel_& model, const mjData_& data, std::vector<Solid>& 
 
 PlaneBox footprint(const Solid& solid, const Pinhole& eye, const PlaneBox& limit) {
   const Corners corners = cornersInCamera(solid, eye.fMc.inverse());
-  PlaneBox box{limit.right, limit.bottom, limit.left, limit.top};
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  PlaneBox box{kEndless, kEndless, -kEndless, -kEndless};
   for (const Eigen::Vector3d& corner : corners) {
     if (corner.z() < kNearest) {
       return limit;

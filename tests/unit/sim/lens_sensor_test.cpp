@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
+#include <iostream>
 
 #include "core/error.h"
 #include "sim/lens_map.h"
@@ -86,6 +88,53 @@ TEST(SensorNoise, HasTheMeanAndVarianceOfPhotonTransfer) {
     EXPECT_NEAR(mean, double{level}, 0.05);
     EXPECT_NEAR(variance / expected, 1.0, 0.05) << level;
   }
+}
+
+/// Mean and variance of grey values over a field of even light.
+Eigen::Vector2d meanAndVariance(const SensorNoise& sensor, float level) {
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (int y = 0; y < 300; ++y) {
+    for (const std::uint8_t grey : exposed(sensor, {5, 1, 0}, 0, y, level, 500)) {
+      sum += grey;
+      squares += grey * grey;
+      ++count;
+    }
+  }
+  const double mean = sum / count;
+  return {mean, squares / count - mean * mean};
+}
+
+TEST(SensorNoise, VarianceOverMeanIsALineWithTheGainAsItsSlope) {
+  for (const double gain : {1.0, 4.0}) {
+    const SensorNoise sensor({.gain = gain, .black_level = 12.0});
+    Eigen::Matrix<double, 9, 2> rows;
+    Eigen::Matrix<double, 9, 1> variances;
+    for (int i = 0; i < 9; ++i) {
+      const auto light = static_cast<float>((15.0 + 22.0 * i) / gain);
+      const Eigen::Vector2d seen = meanAndVariance(sensor, light);
+      rows.row(i) << seen[0] - 12.0, 1.0;
+      variances[i] = seen[1] - 1.0 / 12.0;
+    }
+    const Eigen::Vector2d line = rows.colPivHouseholderQr().solve(variances);
+    const double slope = gain * 255.0 / 10000.0;  // EMVA 1288's overall system gain K
+    std::cout << "gain " << gain << ": photon transfer slope " << line[0] << " (true " << slope
+              << "), read noise " << std::sqrt(line[1]) / slope << " e (true 10)\n";
+    EXPECT_NEAR(line[0] / slope, 1.0, 0.02);
+    EXPECT_NEAR(std::sqrt(line[1]) / slope, 10.0, 2.0);
+  }
+}
+
+TEST(SensorNoise, CollectsLightInProportionToTheExposureUntilTheWellIsFull) {
+  const auto grey = [](double exposure_s) {
+    const SensorNoise sensor({.exposure_s = exposure_s, .noise = false});
+    return int{exposed(sensor, {1, 1, 0}, 0, 0, 100.0F, 1).front()};
+  };
+  EXPECT_EQ(grey(0.00025), 50);
+  EXPECT_EQ(grey(0.0005), 100);
+  EXPECT_EQ(grey(0.001), 200);
+  EXPECT_EQ(grey(0.002), 255);
 }
 
 TEST(SensorNoise, DependsOnThePlaceNotOnTheWindow) {

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "image_reader.h"
+#include "scene_view.h"
 #include "sim/cell_world.h"
 #include "sim/hook_shape.h"
 #include "sim/nominal_rig.h"
@@ -22,44 +23,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A world whose first hook hangs in front of the cameras from the start.
-CellOptions hookInView(double start_y) {
-  CellOptions options;
-  options.belt.start_y = start_y;
-  options.belt.entry_y = start_y;
-  return options;
-}
-
-StereoFrame frameAt(CellWorld& world, SimStereoCamera& camera, double time_s) {
-  world.advanceTo(Time::fromSeconds(time_s));
-  std::optional<StereoFrame> newest;
-  while (auto frame = camera.grab(0.0)) {
-    newest = std::move(frame);
-  }
-  if (!newest) {
-    throw Error("no frame arrived");
-  }
-  return *newest;
-}
-
-/// Pixel of a point of the hook by the lens model alone.
-Vector2d projected(const CameraModel& camera, const Pose& cMo, const Vector3d& point_o) {
-  const Vector3d p = cMo * point_o;
-  return projectNormalised(camera, p.head<2>() / p.z());
-}
-
-std::vector<Vector3d> tagCorners(int id) {
-  const HookShape shape;
-  const double h = shape.tag_size / 2.0;
-  const double y = (id == 0 ? -0.5 : 0.5) * shape.tag_distance;
-  std::vector<Vector3d> corners;
-  for (const Vector3d& corner_k : {Vector3d(-h, y - h, 0), Vector3d(h, y - h, 0),
-                                   Vector3d(h, y + h, 0), Vector3d(-h, y + h, 0)}) {
-    corners.push_back(shape.oMk() * corner_k);
-  }
-  return corners;
-}
-
 using CornerErrors = std::vector<Vector2d> (*)(const GrayImage&, const Window&, const CameraModel&,
                                                const Pose& cMo);
 
@@ -68,6 +31,9 @@ std::vector<Vector2d> detectedCornerErrors(const GrayImage& image, const Window&
                                            const CameraModel& camera, const Pose& cMo) {
   std::vector<Vector2d> errors;
   for (const auto& [id, corners] : readTags(image)) {
+    if (id > 1) {
+      continue;  // the gripper's
+    }
     const auto model = tagCorners(id);
     for (std::size_t i = 0; i < 4; ++i) {
       errors.push_back(corners[i] + Vector2d(window.x, window.y) -
@@ -155,10 +121,7 @@ std::vector<Vector2d> errorsAcrossTheCell(bool noise, CornerErrors corner_errors
     const Pose c1Mo = rig.fMc1->inverse() * truth(world).hooks.front().fMo;
     const Vector2d left = projected(rig.left, c1Mo, {0, -0.035, 0.2});
     const Vector2d right = projected(*rig.right, rig.c2Mc1 * c1Mo, {0, -0.035, 0.2});
-    const auto around = [](const Vector2d& p) {
-      return Window{static_cast<int>(p.x()) - 200, static_cast<int>(p.y()) - 200, 400, 400};
-    };
-    camera.setWindows(around(left), around(right));
+    camera.setWindows(around(left, 400), around(right, 400));
     world.advanceTo(Time::fromSeconds(0.4));
     const Pose c1Mo_seen = rig.fMc1->inverse() * truth(world).hooks.front().fMo;
     const StereoFrame frame = frameAt(world, camera, 0.409);
@@ -224,35 +187,14 @@ TEST(SimImage, ShankEdgeLiesWhereTheLensModelPutsIt) {
   EXPECT_LT(std::sqrt(squares / rows), 0.15);
 }
 
-TEST(SimImage, WindowShowsThePixelsOfTheFullImage) {
-  const StereoRig rig = nominalRig();
-  const Window window{411, 633, 300, 257};
-  CellWorld one(hookInView(-0.2));
-  CellWorld two(hookInView(-0.2));
-  SimStereoCamera full(one, rig);
-  SimStereoCamera part(two, rig);
-  part.setWindows(window, window);
-  const StereoFrame a = frameAt(one, full, 0.01);
-  const StereoFrame b = frameAt(two, part, 0.01);
-  ASSERT_EQ(b.left_window, window);
-  int different = 0;
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const int in_full = a.left.row(window.y + y)[window.x + x];
-      different += std::abs(in_full - b.left.row(y)[x]) > 2 ? 1 : 0;
-    }
-  }
-  EXPECT_LT(different, window.width * window.height / 1000);  // rounding of edge samples
-}
-
 TEST(SimImage, TagsReadUprightFromBothCameras) {
   CellWorld world(hookInView(-0.2));
   SimStereoCamera camera(world, nominalRig());
   const StereoFrame frame = frameAt(world, camera, 0.01);
   for (const GrayImage& image : {frame.left, frame.right}) {
     const auto tags = readTags(image);
-    ASSERT_EQ(tags.size(), 2U);
     for (const int id : {0, 1}) {
+      ASSERT_EQ(tags.count(id), 1U);
       EXPECT_LT(tags.at(id)[0].x(), tags.at(id)[1].x() - 40.0);
       EXPECT_LT(tags.at(id)[0].y(), tags.at(id)[3].y() - 40.0);
     }
