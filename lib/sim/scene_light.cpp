@@ -44,11 +44,7 @@ SceneLight sceneLight(const SceneOptions& options, std::uint64_t cell_seed) {
   light.sky *= around;
   light.ground *= around;
   light.tubes *= around;
-  // The shadow's edge is one texel wide; the hall's lamps are wide, and so are their shadows'
-  // edges.
-  const int map_px =
-      chosen.setup == LightSetup::hall ? chosen.shadow_map_px / 2 : chosen.shadow_map_px;
-  light.shadow_map_px = chosen.shadows ? map_px : 0;
+  light.shadow_map_px = chosen.shadows ? chosen.shadow_map_px : 0;
   return light;
 }
 

@@ -11,7 +11,7 @@
 
 namespace ringhook {
 
-/// hall: rows of lamps overhead, one in front of the cell; soft shadows.
+/// hall: rows of lamps overhead, one in front of the cell; shadows brightened from all sides.
 /// side: one strong lamp beside the cell, little else; hard, deep shadows.
 enum class LightSetup { hall, side };
 
@@ -22,8 +22,7 @@ struct LightOptions {
   double brightness_spread = 0.08;  ///< each lamp's own factor is 1 + uniform(-s, +s)
   double direction_spread = 0.05;   ///< each lamp stands turned by up to this [rad]
   bool shadows = true;
-  /// Side of the shadow map, 256 to 4096 [px]; the hall uses half of it, for soft edges.
-  int shadow_map_px = 2048;
+  int shadow_map_px = 2048;  ///< side of the shadow map, 256 to 4096; sets its sharpness [px]
 };
 
 /// plain: a mildly stained wall. textured: panels, joints and stains of strong contrast.
