@@ -250,7 +250,11 @@ RecordReport runRecord(const RecordJob& job, const std::atomic<bool>& stop,
     if (kept == 0) {
       throw;
     }
-    throw Error(std::string(e.what()) + "; " + std::to_string(kept) + " whole frames are kept in " +
+    std::string sentence = e.what();
+    if (sentence.ends_with('.')) {
+      sentence.pop_back();
+    }
+    throw Error(sentence + "; " + std::to_string(kept) + " whole frames are kept in " +
                 job.out.string());
   }
 }
