@@ -1,4 +1,4 @@
-// Full frames of the simulated cell's looks, one PNG each, to be looked at:
+// Full frames of the simulated cell's looks, to be looked at:
 //   scene_gallery --out DIR
 
 #include <CLI/CLI.hpp>
@@ -76,7 +76,7 @@ void save(const Look& look, const std::filesystem::path& folder) {
   const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   fMc.linear() << x, z.cross(x), z;
   fMc.translation() = eye;
-  camera.savePicture(folder / (look.name + "_beside.png"), fMc, 0.9, 1200, 900);
+  camera.savePicture(folder / (look.name + "_beside.jpg"), fMc, 0.9, 1200, 900);
   std::cout << look.name << "\n";
 }
 
