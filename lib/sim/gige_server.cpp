@@ -15,6 +15,10 @@ namespace ringhook {
 namespace {
 
 constexpr double kTriggerLookHz = 200.0;  // how often a camera looks whether it was triggered
+// Bootstrap register of GigE Vision: a client that is silent for longer loses control [ms]. A busy
+// host draws pictures for seconds, in which the camera hears nothing.
+constexpr guint32 kHeartbeatRegister = 0x0938;
+constexpr guint32 kHeartbeat_ms = 30000;
 
 ArvGvFakeCamera* newCamera(const std::string& address, int side, double lost_packets) {
   const char* serial = side == 0 ? "ringhook-left" : "ringhook-right";
@@ -34,6 +38,7 @@ struct GigeServer::Camera {
   Camera(const std::string& address, int which, double lost_packets, SharedTrigger& shared)
       : side(which), trigger(shared), device(newCamera(address, which, lost_packets)) {
     ArvFakeCamera* fake = arv_gv_fake_camera_get_fake_camera(device);
+    arv_fake_camera_write_register(fake, kHeartbeatRegister, kHeartbeat_ms);
     arv_fake_camera_set_trigger_frequency(fake, kTriggerLookHz);
     arv_fake_camera_set_fill_pattern(fake, &Camera::fill, this);
   }

@@ -155,6 +155,12 @@ TEST(Architecture, FencedHeadersShowEigenAndTheStandardLibraryAlone) {
   }
 }
 
+/// Drivers of real devices: they say when something came, on the host's clock.
+bool isDriver(const std::string& path) {
+  return path.ends_with("camera/gige_camera.cpp") ||
+         path.ends_with("camera/aravis_stereo_camera.cpp");
+}
+
 TEST(Architecture, NoStageReadsAClock) {
   const std::regex clock(
       R"(_clock\s*::\s*now|\bClock\s*::\s*now|std::time\s*\(|clock_gettime|gettimeofday)");
@@ -162,7 +168,8 @@ TEST(Architecture, NoStageReadsAClock) {
                              "cycle", "evaluation"}) {
     for (const SourceFile& file : sourcesBelow(std::string("lib/") + module)) {
       for (const std::string& line : file.lines) {
-        EXPECT_FALSE(std::regex_search(line, clock)) << file.path << ": " << line;
+        EXPECT_TRUE(isDriver(file.path) || !std::regex_search(line, clock))
+            << file.path << ": " << line;
       }
     }
   }
