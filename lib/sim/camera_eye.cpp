@@ -1,11 +1,27 @@
 #include "sim/camera_eye.h"
 
+#include <algorithm>
 #include <cmath>
+#include <future>
 
 namespace ringhook {
 namespace {
 
 constexpr float kGreyStep = 255.0F / Renderer::kWhite;
+
+/// Rows 0 .. height - 1 by work(from, to), to excluded; of a large image both halves at once.
+template <class Work>
+void inHalves(int height, Work work) {
+  constexpr int kLarge = 1024;  // below, starting a thread costs more than it saves
+  if (height < kLarge) {
+    work(0, height);
+    return;
+  }
+  const int half = height / 2;
+  std::future<void> upper = std::async(std::launch::async, work, 0, half);
+  work(half, height);
+  upper.get();
+}
 
 /// The lens's blur: weights 1 6 1 / 8 along both axes, a standard deviation of half a pixel.
 /// The image's outermost pixels stay as they are.
@@ -15,22 +31,26 @@ void blur(int width, int height, std::vector<float>& grey, std::vector<float>& s
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   };
-  for (int y = 0; y < height; ++y) {
-    const float* from = &grey[at(0, y)];
-    float* to = &scratch[at(0, y)];
-    for (int x = 1; x < width - 1; ++x) {
-      to[x] = 0.75F * from[x] + 0.125F * (from[x - 1] + from[x + 1]);
+  inHalves(height, [&](int from_y, int to_y) {
+    for (int y = from_y; y < to_y; ++y) {
+      const float* from = &grey[at(0, y)];
+      float* to = &scratch[at(0, y)];
+      for (int x = 1; x < width - 1; ++x) {
+        to[x] = 0.75F * from[x] + 0.125F * (from[x - 1] + from[x + 1]);
+      }
     }
-  }
-  for (int y = 1; y < height - 1; ++y) {
-    const float* above = &scratch[at(0, y - 1)];
-    const float* from = &scratch[at(0, y)];
-    const float* below = &scratch[at(0, y + 1)];
-    float* to = &grey[at(0, y)];
-    for (int x = 0; x < width; ++x) {
-      to[x] = 0.75F * from[x] + 0.125F * (above[x] + below[x]);
+  });
+  inHalves(height, [&](int from_y, int to_y) {
+    for (int y = std::max(1, from_y); y < std::min(height - 1, to_y); ++y) {
+      const float* above = &scratch[at(0, y - 1)];
+      const float* from = &scratch[at(0, y)];
+      const float* below = &scratch[at(0, y + 1)];
+      float* to = &grey[at(0, y)];
+      for (int x = 0; x < width; ++x) {
+        to[x] = 0.75F * from[x] + 0.125F * (above[x] + below[x]);
+      }
     }
-  }
+  });
 }
 
 std::size_t indexOf(const Window& window, int x, int y) {
@@ -118,16 +138,18 @@ void CameraEye::addPart(Renderer& renderer, const Window& part, double weight) {
 GrayImage CameraEye::develop(const SensorNoise& sensor, const ExposureKey& key) {
   blur(seen_.width, seen_.height, grey_, scratch_);
   GrayImage image(window_.width, window_.height);
-  samples_.resize(static_cast<std::size_t>(window_.width));
-  light_.resize(static_cast<std::size_t>(window_.width));
-  for (int y = 0; y < window_.height; ++y) {
-    lens_.row(window_.x, window_.y + y, samples_);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const LensMap::Sample& s = samples_[i];
-      light_[i] = s.light * sampleAt(grey_, seen_, s.x, s.y);
+  inHalves(window_.height, [&](int from_y, int to_y) {
+    std::vector<LensMap::Sample> samples(static_cast<std::size_t>(window_.width));
+    std::vector<float> light(samples.size());
+    for (int y = from_y; y < to_y; ++y) {
+      lens_.row(window_.x, window_.y + y, samples);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const LensMap::Sample& s = samples[i];
+        light[i] = s.light * sampleAt(grey_, seen_, s.x, s.y);
+      }
+      sensor.expose(key, window_.x, window_.y + y, light.data(), window_.width, image.row(y));
     }
-    sensor.expose(key, window_.x, window_.y + y, light_.data(), window_.width, image.row(y));
-  }
+  });
   return image;
 }
 

@@ -48,8 +48,6 @@ class CameraEye {
   std::vector<std::uint16_t> drawn_;
   std::vector<float> grey_;  // of seen_, 255 is white
   std::vector<float> scratch_;
-  std::vector<LensMap::Sample> samples_;
-  std::vector<float> light_;
 };
 
 }  // namespace ringhook
