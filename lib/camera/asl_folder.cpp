@@ -45,7 +45,7 @@ std::vector<double> numbersOf(const YAML::Node& node, std::size_t count, const s
 }
 
 AslCamera readSensor(const fs::path& file) {
-  if (!fs::exists(file)) {
+  if (!isFile(file)) {
     throw InputError("there is no file " + file.string() + ": expected the camera's calibration");
   }
   const std::string name = file.string();

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 
 namespace ringhook {
 namespace {
@@ -38,6 +39,9 @@ bool isNumber(const YAML::Node& node, double& value) {
 }
 
 YAML::Node load(const std::filesystem::path& file) {
+  if (isFolder(file)) {  // opens, cannot be read, and yaml-cpp 0.7 then leaks
+    throw InputError("cannot read " + file.string() + ": expected a YAML file");
+  }
   try {
     return YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
@@ -45,7 +49,7 @@ YAML::Node load(const std::filesystem::path& file) {
   } catch (const YAML::Exception& e) {
     throw InputError(file.string() + ", line " + std::to_string(e.mark.line + 1) +
                      ": not valid YAML: " + e.msg);
-  } catch (const std::ios_base::failure&) {  // a folder opens but cannot be read
+  } catch (const std::ios_base::failure&) {  // opens but cannot be read
     throw InputError("cannot read " + file.string() + ": expected a YAML file");
   }
 }
