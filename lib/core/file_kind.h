@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// What a path names, for paths that users write: a name that no file system takes, or a folder that
-/// may not be entered, is no file; nothing is thrown.
+/// What a path names, for paths that users write: a name that no file system takes, or a folder
+/// that may not be entered, is no file; nothing is thrown.
 
 #include <filesystem>
 
