@@ -40,7 +40,7 @@ std::vector<AirPiece> hookAirPieces(const HookShape& s) {
   plate.half_size.x() = 0.5 * (s.plate_face_x - back);
   pieces.push_back({plate, kPlate});
   std::vector<HookPart> bars = hookBars(s);
-  pieces.push_back({bars[1], kBar});              // the tip; the first one is the shank
+  pieces.push_back({bars[1], kBar});               // the tip; the first one is the shank
   for (std::size_t i = 2; i < bars.size(); ++i) {  // the arc, here without overlaps
     bars[i].half_size.y() = 0.5 * bars[i].mass / (kSteelDensity * s.bar_width * s.bar_thickness);
     pieces.push_back({bars[i], kBar});
