@@ -8,6 +8,7 @@
 #include "app/experiment.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/trajectory.h"
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence.h"
@@ -243,6 +244,8 @@ void addEvaluateCommand(CLI::App& app) {
   evaluate->footer("Example: ringhook evaluate sequence datasets/visp-cube");
   evaluate->require_subcommand(1);
   addSequenceCommand(*evaluate);
+  addTrajectoryCommand(*evaluate);
+  addCompareCommand(*evaluate);
   addExperimentCommand(*evaluate);
 }
 
