@@ -68,10 +68,11 @@ void checkRecordingFolder(const fs::path& folder, bool overwrite) {
     throw InputError("--overwrite: " + folder.string() + " holds no recording (sequence.yaml)");
   }
   const std::string target = targetOf(folder / "sequence.yaml");
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failed)) {
-    if (!belongsToRecording(entry.path().lexically_relative(folder).generic_string(), target)) {
+  fs::recursive_directory_iterator entry(folder, failed);
+  for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+    if (!belongsToRecording(entry->path().lexically_relative(folder).generic_string(), target)) {
       throw InputError(
-          "--overwrite: " + entry.path().string() +
+          "--overwrite: " + entry->path().string() +
           " does not belong to a recording; expected a folder with nothing else in it");
     }
   }
@@ -82,10 +83,11 @@ void checkRecordingFolder(const fs::path& folder, bool overwrite) {
 
 void clearRecordingFolder(const fs::path& folder) {
   std::error_code failed;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-    fs::remove_all(entry.path(), failed);
+  fs::directory_iterator entry(folder, failed);
+  for (; !failed && entry != fs::directory_iterator(); entry.increment(failed)) {
+    fs::remove_all(entry->path(), failed);
     if (failed) {
-      throw Error("cannot remove " + entry.path().string() + ": " + failed.message());
+      throw Error("cannot remove " + entry->path().string() + ": " + failed.message());
     }
   }
 }

@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
 
 #include "camera/recording_folder.h"
 #include "camera/replay_camera.h"
@@ -14,6 +13,7 @@
 #include "camera/table_file.h"
 #include "core/error.h"
 #include "scratch_folder.h"
+#include "small_recording.h"
 #include "tests/support/tiny_disk.h"
 
 namespace ringhook {
@@ -22,28 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string textOf(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-StereoRig rigOf(int width, int height) {
-  StereoRig rig;
-  rig.left.width = width;
-  rig.left.height = height;
-  rig.left.K << 300, 0, 16, 0, 300, 12, 0, 0, 1;
-  rig.right = rig.left;
-  rig.c2Mc1.translation() = Eigen::Vector3d(-0.1, 0, 0);
-  return rig;
-}
-
-SequenceInfo info() {
-  SequenceInfo info;
-  info.name = "recorded";
-  info.rate_hz = 50.0;
-  return info;
-}
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
@@ -66,7 +44,8 @@ StereoFrame noisyFrame(int number) {
 }
 
 std::unique_ptr<SequenceWriter> writerIn(const fs::path& folder) {
-  return std::make_unique<SequenceWriter>(folder, info(), rigOf(kWidth, kHeight));
+  return std::make_unique<SequenceWriter>(folder, test::someInfo(),
+                                          test::smallRig(kWidth, kHeight));
 }
 
 /// Plays all of it; the number of frames.
@@ -225,11 +204,11 @@ TEST(RecordingFolder, OnlyANewOrEmptyOneIsTakenUnasked) {
 
 TEST(RecordingFolder, NothingButARecordingIsOverwritten) {
   const ScratchFolder folder;
-  SequenceInfo with_target = info();
+  SequenceInfo with_target = test::someInfo();
   with_target.target = folder.write("plate-7.yaml", "family: tag36h11\n");
   const fs::path recording = folder.path() / "s";
   {
-    SequenceWriter writer(recording, with_target, rigOf(kWidth, kHeight));
+    SequenceWriter writer(recording, with_target, test::smallRig(kWidth, kHeight));
     writer.addFrame(noisyFrame(0));
     writer.addTruth(noisyFrame(0).time, Pose::Identity());
   }
@@ -247,6 +226,18 @@ TEST(RecordingFolder, NothingButARecordingIsOverwritten) {
   clearRecordingFolder(recording);
   EXPECT_TRUE(fs::is_empty(recording));
   EXPECT_TRUE(fs::exists(folder.path() / "plate-7.yaml"));
+}
+
+TEST(RecordingFolder, AFolderInItThatCannotBeReadIsSaid) {
+  if (geteuid() == 0) {
+    GTEST_SKIP() << "root may read everything";
+  }
+  const ScratchFolder folder;
+  folder.write("s/sequence.yaml", "name: s\n");
+  fs::create_directories(folder.path() / "s/left");
+  fs::permissions(folder.path() / "s/left", fs::perms::none);
+  EXPECT_THAT(refusalOf(folder.path() / "s", true), HasSubstr("cannot look into"));
+  fs::permissions(folder.path() / "s/left", fs::perms::owner_all);
 }
 
 TEST(RecordingFolder, TooLittleSpaceIsSaidAheadWithBothSizes) {

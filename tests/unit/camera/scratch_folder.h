@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace ringhook {
@@ -42,6 +43,13 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// A file's bytes; that it can be read is part of the test.
+inline std::string textOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 /// Message of the Error that `job` throws; empty if it throws none.
 template <class Exception, class Job>

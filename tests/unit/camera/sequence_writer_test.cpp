@@ -7,26 +7,10 @@
 #include "camera/replay_camera.h"
 #include "core/error.h"
 #include "scratch_folder.h"
+#include "small_recording.h"
 
 namespace ringhook {
 namespace {
-
-StereoRig smallRig() {
-  StereoRig rig;
-  rig.left.width = 32;
-  rig.left.height = 24;
-  rig.left.K << 30, 0, 16, 0, 30, 12, 0, 0, 1;
-  rig.right = rig.left;
-  rig.c2Mc1.translation() = Eigen::Vector3d(-0.1, 0, 0);
-  return rig;
-}
-
-SequenceInfo someInfo() {
-  SequenceInfo info;
-  info.name = "recorded";
-  info.rate_hz = 50.0;
-  return info;
-}
 
 /// A frame whose pixels tell its number, read from a window.
 StereoFrame numberedFrame(int number) {
@@ -43,7 +27,7 @@ StereoFrame numberedFrame(int number) {
 TEST(SequenceWriter, WhatWasWrittenIsReplayed) {
   const ScratchFolder folder;
   const Pose c1Mo = makePoseThetaU({0.1, -0.2, 1.3}, {0.3, 0.2, -0.1});
-  SequenceWriter writer(folder.path(), someInfo(), smallRig());
+  SequenceWriter writer(folder.path(), test::someInfo(), test::smallRig(32, 24));
   for (int i = 0; i < 3; ++i) {
     const StereoFrame frame = numberedFrame(i);
     writer.addFrame(frame);
@@ -76,7 +60,7 @@ TEST(SequenceWriter, WhatWasWrittenIsReplayed) {
 
 TEST(SequenceWriter, AWindowInTheCornerOfTheImageIsReplayed) {
   const ScratchFolder folder;
-  SequenceWriter writer(folder.path(), someInfo(), smallRig());
+  SequenceWriter writer(folder.path(), test::someInfo(), test::smallRig(32, 24));
   StereoFrame frame = numberedFrame(0);
   frame.left_window = {0, 0, 8, 6};
   frame.right_window = {0, 0, 9, 5};
@@ -88,7 +72,7 @@ TEST(SequenceWriter, AWindowInTheCornerOfTheImageIsReplayed) {
 TEST(SequenceWriter, AnInterruptedRunLeavesAValidSequence) {
   const ScratchFolder folder;
   try {
-    SequenceWriter writer(folder.path(), someInfo(), smallRig());
+    SequenceWriter writer(folder.path(), test::someInfo(), test::smallRig(32, 24));
     writer.addFrame(numberedFrame(0));
     writer.addFrame(numberedFrame(1));
     throw std::runtime_error("the arm stopped");
@@ -99,7 +83,7 @@ TEST(SequenceWriter, AnInterruptedRunLeavesAValidSequence) {
 
 TEST(SequenceWriter, AFrameIsThereAsSoonAsItIsAdded) {
   const ScratchFolder folder;
-  SequenceWriter writer(folder.path(), someInfo(), smallRig());
+  SequenceWriter writer(folder.path(), test::someInfo(), test::smallRig(32, 24));
   for (std::size_t i = 0; i < 3; ++i) {
     writer.addFrame(numberedFrame(static_cast<int>(i)));
     EXPECT_EQ(openSequence(folder.path()).frames.size(), i + 1);
@@ -110,11 +94,11 @@ TEST(SequenceWriter, AFrameIsThereAsSoonAsItIsAdded) {
 TEST(SequenceWriter, ForgetsAnOlderRecordingInTheSameFolder) {
   const ScratchFolder folder;
   {
-    SequenceWriter older(folder.path(), someInfo(), smallRig());
+    SequenceWriter older(folder.path(), test::someInfo(), test::smallRig(32, 24));
     older.addFrame(numberedFrame(0));
     older.addTruth(Time(), Pose::Identity());
   }
-  SequenceWriter newer(folder.path(), someInfo(), smallRig());
+  SequenceWriter newer(folder.path(), test::someInfo(), test::smallRig(32, 24));
   newer.addFrame(numberedFrame(5));
   newer.close();
   const Sequence sequence = openSequence(folder.path());
@@ -124,9 +108,9 @@ TEST(SequenceWriter, ForgetsAnOlderRecordingInTheSameFolder) {
 
 TEST(SequenceWriter, RefusesAnUnknownImageFormat) {
   const ScratchFolder folder;
-  SequenceInfo info = someInfo();
+  SequenceInfo info = test::someInfo();
   info.image_format = "gif";
-  EXPECT_THROW(SequenceWriter(folder.path(), info, smallRig()), InputError);
+  EXPECT_THROW(SequenceWriter(folder.path(), info, test::smallRig(32, 24)), InputError);
 }
 
 }  // namespace
