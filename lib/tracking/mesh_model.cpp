@@ -32,14 +32,6 @@ std::string inWords(double number) {
   return text.str();
 }
 
-Eigen::Vector3d newell(const std::vector<Eigen::Vector3d>& loop) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    sum += (loop[i] - loop[0]).cross(loop[i + 1] - loop[0]);
-  }
-  return sum;
-}
-
 class ModelBuilder {
  public:
   ModelBuilder(const Mesh& mesh, const MeshPatches& patches, const std::vector<MeshLine>& lines)
@@ -123,12 +115,8 @@ class ModelBuilder {
 
   /// A border of a flat patch; one that runs against the normal surrounds a hole.
   void addLoop(std::vector<int> loop, const Eigen::Vector3d& normal) {
-    std::vector<Eigen::Vector3d> corners;
-    for (const int point : loop) {
-      corners.push_back(mesh_.points[at(point)]);
-    }
-    const double twice_area = newell(corners).dot(normal);
-    if (loop.size() < 3 || std::abs(twice_area) < kLeastTwiceArea) {
+    const double twice_area = loop.size() < 3 ? 0.0 : areaVector(mesh_, {loop, 0}).dot(normal);
+    if (std::abs(twice_area) < kLeastTwiceArea) {
       ++model_.left_out;
       return;
     }

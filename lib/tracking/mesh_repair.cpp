@@ -15,8 +15,11 @@ using Cell = std::array<std::int64_t, 3>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Points too far off for a number to tell their cell share the outermost one.
 Cell cellOf(const Eigen::Vector3d& p, double size) {
-  return {std::llround(p.x() / size), std::llround(p.y() / size), std::llround(p.z() / size)};
+  constexpr double kOutermost = 1e18;
+  const Eigen::Vector3d cell = (p / size).cwiseMax(-kOutermost).cwiseMin(kOutermost);
+  return {std::llround(cell.x()), std::llround(cell.y()), std::llround(cell.z())};
 }
 
 /// The point that stands for each point: the first one within the tolerance.

@@ -184,6 +184,15 @@ TEST(MeshModel, RefusesTheWrongUnitWithAdvice) {
   EXPECT_EQ(refusalOf(in_millimetres, 0.001), "accepted");
 }
 
+TEST(MeshModel, APointOfNoFaceMayLieAnywhere) {
+  MeshModelOptions options;
+  options.scale = 1e6;
+  options.weld_m = 1e-9;
+  const std::string cube = prism(test::square(1e-7), 1e-7, false);
+  const std::string obj = cube + "v 1e9 -1e9 1e9\n";
+  EXPECT_EQ(modelFromMesh(parseObj(obj, "part.obj"), options, "part.obj").lines, 12);
+}
+
 TEST(MeshModel, RefusesASolidWithoutEdges) {
   // A ball of 24 x 12 facets: neighbours meet at 15 degrees or less.
   std::string ball = test::pointLine(0, 0, 0.1) + test::pointLine(0, 0, -0.1);
