@@ -50,21 +50,20 @@ TEST(TagPlate, NamesLineAndFieldOfABadFile) {
   EXPECT_THAT(plateComplaint("family: tag36h11\n"), HasSubstr("field layout is missing"));
   EXPECT_THAT(plateComplaint("family: tag36h11\nlayout: []"), HasSubstr("field layout: expected"));
   const std::string head = "family: tag16h5\nlayout:\n  - ";
-  EXPECT_THAT(plateComplaint(head + "{id: 30, size: 0.04}"),
-              HasSubstr("line 3: field layout[0].id: expected a whole number from 0 to 29"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: -0.04}"),
-              HasSubstr("line 3: field layout[0].size: expected a number from 0"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0}"),
-              HasSubstr("line 3: field layout[0].size: expected a positive length"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1}"), HasSubstr("field layout[0].size is missing"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, x: far}"),
-              HasSubstr("line 3: field layout[0].x: expected a number"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1, qw: 0}"),
-              HasSubstr("line 3: field layout[0]: expected a quaternion"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1}\n  - {id: 1, size: 0.1}"),
-              HasSubstr("line 4: field layout[1].id: expected each id once, got 1 again"));
-  EXPECT_THAT(plateComplaint(head + "{id: 1, size: 0.1}\noMK: {x: 1}"),
-              HasSubstr("line 4: unknown field oMK"));
+  const std::pair<const char*, const char*> bad_tags[] = {
+      {"{id: 30, size: 0.04}", "line 3: field layout[0].id: expected a whole number from 0 to 29"},
+      {"{id: 1, size: -0.04}", "line 3: field layout[0].size: expected a number from 0"},
+      {"{id: 1, size: 0}", "line 3: field layout[0].size: expected a positive length"},
+      {"{id: 1}", "field layout[0].size is missing"},
+      {"{id: 1, size: 0.1, x: far}", "line 3: field layout[0].x: expected a number"},
+      {"{id: 1, size: 0.1, qw: 0}", "line 3: field layout[0]: expected a quaternion"},
+      {"{id: 1, size: 0.1}\n  - {id: 1, size: 0.1}",
+       "line 4: field layout[1].id: expected each id once, got 1 again"},
+      {"{id: 1, size: 0.1}\noMK: {x: 1}",
+       "line 4: unknown field oMK; expected family, layout, oMk"}};
+  for (const auto& [tags, words] : bad_tags) {
+    EXPECT_THAT(plateComplaint(head + tags), HasSubstr(words)) << tags;
+  }
   EXPECT_THAT(plateComplaint("family: [\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(plateComplaint(""), HasSubstr("a map"));
   EXPECT_THAT(complaint([] { loadTagPlate("absent.yaml"); }), HasSubstr("absent.yaml"));
