@@ -12,17 +12,15 @@
 namespace ringhook::rx60 {
 namespace {
 
+using test::off;
 using test::ScriptedController;
+using test::slow;
 using test::stopsIn;
 using test::velocitiesIn;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr double kPeriod = ScriptedController::kPeriod;
-
-JointVector slow() { return JointVector{{0.01, -0.01, 0.02, 0.0, 0.01, -0.02}}; }
-
-double off(const JointVector& a, const JointVector& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
 struct Obstacle {
   RobotStatus status;

@@ -46,6 +46,13 @@ class ScriptedController {
   void reply(const rx60::Link::Outgoing& out);
 };
 
+/// A velocity well within every limit [rad/s].
+inline JointVector slow() { return JointVector{{0.01, -0.01, 0.02, 0.0, 0.01, -0.02}}; }
+/// The largest difference of two joints' values.
+inline double off(const JointVector& a, const JointVector& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
 /// The velocity commands among messages, stops left out [rad/s].
 std::vector<JointVector> velocitiesIn(const std::vector<rx60::Message>& messages);
 /// How many messages stop the arm.
