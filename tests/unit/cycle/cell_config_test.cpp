@@ -223,7 +223,7 @@ TEST(CellConfig, DevicesOnANetworkAreWhatTheirFileSays) {
 }
 
 TEST(CellConfig, BadDevicesOnANetworkAreNamed) {
-  const std::string good = test::textOf(RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml");
+  const std::string good = textOf(RINGHOOK_SOURCE_DIR "/app/config/cell-network.yaml");
   const ScratchFolder scratch;
   const auto refusal = [&](const std::string& key, const std::string& line) {
     std::string text = good;

@@ -7,12 +7,15 @@
 #include <string>
 
 #include "cycle/cell_config.h"
+#include "rig/stereo_rig.h"
 
 namespace ringhook::test {
 
-std::string textOf(const std::filesystem::path& file);
 std::filesystem::path defaultCellFile();
 std::string defaultCellText();
 CellConfig defaultCell();
+
+/// A cell's cameras with an eighth of their pixels per axis: maps are made faster.
+StereoRig coarseRig(const CellConfig& cell);
 
 }  // namespace ringhook::test

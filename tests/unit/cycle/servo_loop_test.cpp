@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "default_cell.h"
-#include "rig/stereo_rig.h"
 
 namespace ringhook {
 namespace {
@@ -101,24 +100,13 @@ class FakeObserver : public LoopObserver {
   Script& script_;
 };
 
-/// The default cell's cameras with an eighth of their pixels per axis: maps are made faster.
-StereoRig coarseRig(const CellConfig& cell) {
-  StereoRig rig = loadRig(cell.rig);
-  for (CameraModel* camera : {&rig.left, &*rig.right}) {
-    camera->K.topRows<2>() /= 8.0;
-    camera->width /= 8;
-    camera->height /= 8;
-  }
-  return rig;
-}
-
 /// The loop of the default cell on fake devices.
 class LoopBench {
  public:
   LoopBench()
       : arm(script, test::defaultCell().arm.load_rad),
         cell_(test::defaultCell()),
-        vision_(cell_, coarseRig(cell_), TrackerKind::kMarker),
+        vision_(cell_, test::coarseRig(cell_), TrackerKind::kMarker),
         task_(cell_),
         camera_(script),
         observer_(script) {}

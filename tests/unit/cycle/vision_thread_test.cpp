@@ -15,7 +15,6 @@
 #include "core/error.h"
 #include "cycle/servo_loop.h"
 #include "default_cell.h"
-#include "rig/stereo_rig.h"
 
 namespace ringhook {
 namespace {
@@ -132,16 +131,8 @@ class PatientArm : public Arm {
 
 class VisionThreadTest : public ::testing::Test {
  protected:
-  VisionThreadTest() : cell(test::defaultCell()), step(cell, rigOf(cell), TrackerKind::kMarker) {}
-  static StereoRig rigOf(const CellConfig& cell) {
-    StereoRig rig = loadRig(cell.rig);
-    for (CameraModel* camera : {&rig.left, &*rig.right}) {
-      camera->K.topRows<2>() /= 8.0;
-      camera->width /= 8;
-      camera->height /= 8;
-    }
-    return rig;
-  }
+  VisionThreadTest()
+      : cell(test::defaultCell()), step(cell, test::coarseRig(cell), TrackerKind::kMarker) {}
 
   CellConfig cell;
   VisionStep step;
