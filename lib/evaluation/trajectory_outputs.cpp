@@ -81,7 +81,7 @@ std::string headTable(const TrajectoryResult& result) {
   const auto& times = result.trajectory.times;
   return result.trajectory.name + ": " + std::to_string(times.size()) + " samples, " +
          brief(1.0 / result.step_s) + " Hz, " + brief(times.back() - times.front()) + " s, " +
-         std::to_string(result.repeated) + (angles ? " repeated" : " repeated ones left out") +
+         std::to_string(result.repeated) + (angles ? " repeated" : " repeated and left out") +
          "\nmeasurement noise " + brief(1e3 * result.noise) + (angles ? " mrad (" : " mm (") +
          (result.noise_estimated ? "estimated from the data" : "as told") + "); judged from " +
          brief(result.judged_from_s) + " s on\n";
