@@ -15,12 +15,24 @@ fs::path temporaryFor(const fs::path& path) {
   return path.parent_path() / ("." + path.stem().string() + ".partial" + path.extension().string());
 }
 
+/// How many folders of the path, from the lowest one upwards, do not exist yet.
+int missingFolders(fs::path folder) {
+  int missing = 0;
+  std::error_code ignored;
+  while (!folder.empty() && !fs::exists(folder, ignored)) {
+    ++missing;
+    folder = folder.parent_path();
+  }
+  return missing;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), temporary_(temporaryFor(path_)) {
   std::error_code failed;
   if (path_.has_parent_path()) {
-    made_folder_ = fs::create_directories(path_.parent_path(), failed);
+    made_folders_ = missingFolders(path_.parent_path());
+    fs::create_directories(path_.parent_path(), failed);
   }
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
@@ -33,8 +45,10 @@ AtomicFile::~AtomicFile() {
     stream_.close();
     std::error_code ignored;
     fs::remove(temporary_, ignored);
-    if (made_folder_) {
-      fs::remove(path_.parent_path(), ignored);  // does nothing to a folder in use
+    fs::path folder = path_.parent_path();
+    for (; made_folders_ > 0; --made_folders_) {
+      fs::remove(folder, ignored);  // does nothing to a folder in use
+      folder = folder.parent_path();
     }
   }
 }

@@ -2,8 +2,8 @@
 
 /// \file
 /// Output files that are either whole or absent: written to a temporary name beside the target
-/// and renamed by commit(). Destroyed without commit() the temporary is removed, and the folder
-/// that was made for it, so bad input or an exception leaves nothing behind and an older file
+/// and renamed by commit(). Destroyed without commit() the temporary is removed, and the folders
+/// that were made for it, so bad input or an exception leaves nothing behind and an older file
 /// untouched.
 
 #include <filesystem>
@@ -30,7 +30,7 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   std::ofstream stream_;
-  bool made_folder_ = false;
+  int made_folders_ = 0;  ///< the lowest ones of the path
   bool committed_ = false;
 };
 

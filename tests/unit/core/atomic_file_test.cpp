@@ -57,6 +57,20 @@ TEST_F(AtomicFileTest, AnExceptionLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(files(), 1U);
 }
 
+TEST_F(AtomicFileTest, WithoutCommitFoldersThatItMadeAreGoneAndOthersStay) {
+  fs::create_directories(folder_ / "mine");
+  { const AtomicFile file(folder_ / "mine" / "out" / "live" / "result.json"); }
+  EXPECT_FALSE(fs::exists(folder_ / "mine" / "out"));
+  EXPECT_TRUE(fs::exists(folder_ / "mine")) << "it was there before";
+  {
+    const AtomicFile file(folder_ / "mine" / "out" / "live" / "result.json");
+    writeFileAtomically(folder_ / "mine" / "out" / "kept.json", "{}");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "mine" / "out" / "live"));
+  EXPECT_EQ(read(folder_ / "mine" / "out" / "kept.json"), "{}")
+      << "somebody else's, made meanwhile";
+}
+
 TEST_F(AtomicFileTest, RefusesAPlaceThatCannotBeWrittenAndNamesIt) {
   fs::create_directories(folder_);
   writeFileAtomically(folder_ / "file", "x");
