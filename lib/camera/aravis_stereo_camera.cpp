@@ -24,8 +24,7 @@ constexpr double kPairingPart = 0.25;
 /// Exposures started one after the other by command, or clocks tied to arrivals, differ more than a
 /// quarter of a short period.
 constexpr double kLeastTolerance_s = 0.002;
-/// Images of the two cameras are waited for in turns of this length.
-constexpr double kTurn_s = 0.002;
+constexpr double kTurn_s = 0.002;  // images of the two cameras are waited for in such turns
 /// A clock that does not follow the host's counts from another epoch: it is years off, or hours.
 constexpr double kPlausible_s = 60.0;
 
@@ -68,6 +67,7 @@ struct AravisStereoCamera::Impl {
   Time midExposure(int side, const GigeImage& image);
   bool collect(int side, double timeout_s);
   void rethrowFailure();
+  [[nodiscard]] std::int64_t exposuresWithoutPair() const;
 
   AravisOptions options;
   std::array<std::unique_ptr<GigeCamera>, 2> cameras;
@@ -120,6 +120,10 @@ AravisStereoCamera::Impl::~Impl() {
   if (thread.joinable()) {
     thread.join();
   }
+  // At once: to find out that a camera does not answer takes seconds.
+  std::thread right([this] { cameras[1].reset(); });
+  cameras[0].reset();
+  right.join();
 }
 
 /// Settings, and triggers by command: whatever asks the cameras something.
@@ -220,6 +224,12 @@ void AravisStereoCamera::Impl::rethrowFailure() {
   }
 }
 
+/// Each left something behind on one side at least: a broken image, or one without its partner.
+std::int64_t AravisStereoCamera::Impl::exposuresWithoutPair() const {
+  return std::max(cameras[0]->counts().lost_images + pairing.unpaired(0),
+                  cameras[1]->counts().lost_images + pairing.unpaired(1));
+}
+
 AravisStereoCamera::AravisStereoCamera(const AravisOptions& options)
     : impl_(std::make_unique<Impl>(options)) {}
 AravisStereoCamera::~AravisStereoCamera() = default;
@@ -259,7 +269,7 @@ std::optional<StereoFrame> AravisStereoCamera::grab(double timeout_s) {
       auto& [left, right] = *pair;
       StereoFrame frame;
       frame.time = left.time + 0.5 * (right.time - left.time);
-      frame.index = static_cast<std::uint64_t>(impl_->pairs++);
+      frame.index = static_cast<std::uint64_t>(impl_->pairs++ + impl_->exposuresWithoutPair());
       frame.left_window = left.window;
       frame.right_window = right.window;
       frame.left = std::move(left.image);

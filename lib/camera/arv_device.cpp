@@ -68,4 +68,25 @@ Owned<ArvDevice> openArvDevice(const std::string& name) {
   return device;
 }
 
+RegionLimits regionLimits(ArvCamera* camera, const std::string& device) {
+  ArvError error(device);
+  RegionLimits limits;
+  arv_camera_get_sensor_size(camera, &limits.sensor_width, &limits.sensor_height, error.out());
+  error.require("does not tell its sensor's size");
+  int largest = 0;
+  arv_camera_get_width_bounds(camera, &limits.x.smallest, &largest, error.out());
+  error.require("does not tell its smallest width");
+  arv_camera_get_height_bounds(camera, &limits.y.smallest, &largest, error.out());
+  error.require("does not tell its smallest height");
+  const auto step = [&](gint (*get)(ArvCamera*, GError**)) {
+    const int value = get(camera, error.out());
+    return error.failed() || value < 1 ? 1 : value;
+  };
+  limits.x.size = step(&arv_camera_get_width_increment);
+  limits.y.size = step(&arv_camera_get_height_increment);
+  limits.x.offset = step(&arv_camera_get_x_offset_increment);
+  limits.y.offset = step(&arv_camera_get_y_offset_increment);
+  return limits;
+}
+
 }  // namespace ringhook

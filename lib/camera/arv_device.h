@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "camera/readout_region.h"
+
 namespace ringhook {
 
 template <class T>
@@ -34,6 +36,10 @@ class ArvError {
   /// Throws DeviceError naming the device if the last call failed.
   void require(const std::string& what);
   [[nodiscard]] bool failed() const { return error_ != nullptr; }
+  /// The device was asked several times and answered nothing.
+  [[nodiscard]] bool timedOut() const {
+    return g_error_matches(error_, ARV_DEVICE_ERROR, ARV_DEVICE_ERROR_TIMEOUT) != FALSE;
+  }
 
  private:
   const std::string& device_;
@@ -42,5 +48,8 @@ class ArvError {
 
 /// By IPv4 address, or by serial number, which broadcasts. Throws DeviceError naming it.
 Owned<ArvDevice> openArvDevice(const std::string& name);
+
+/// Sensor and region as the camera tells them. Throws DeviceError naming `device`.
+RegionLimits regionLimits(ArvCamera* camera, const std::string& device);
 
 }  // namespace ringhook

@@ -8,6 +8,7 @@
 
 #include "camera/arv_device.h"
 #include "core/error.h"
+#include "core/thread_priority.h"
 
 namespace ringhook {
 namespace {
@@ -20,14 +21,23 @@ std::int64_t steadyMinusReal_ns() {
   return duration_cast<nanoseconds>(steady).count() - duration_cast<nanoseconds>(real).count();
 }
 
+/// On the thread that puts packets together: a full socket drops them.
+void onStream(void* /*nothing*/, ArvStreamCallbackType type, ArvBuffer* /*buffer*/) {
+  if (type == ARV_STREAM_CALLBACK_TYPE_INIT) {
+    thread_local const RaisedPriority raised(kCameraRank);
+    static_cast<void>(raised.reached());
+  }
+}
+
 }  // namespace
 
 struct GigeCamera::Impl {
   explicit Impl(const GigeCameraOptions& o);
   ~Impl();
 
-  void readLimits();
   void setUp();
+  void setTrigger();
+  void require(ArvError& error, const std::string& what);
   void openStream();
   GigeImage imageOf(ArvBuffer* buffer);
   static void onControlLost(ArvDevice*, gpointer impl) {
@@ -44,6 +54,7 @@ struct GigeCamera::Impl {
   bool streaming = false;
   gulong control_signal = 0;
   std::atomic<bool> control_lost = false;
+  bool silent = false;  ///< a setting was not answered
   std::atomic<std::int64_t> images = 0;
   std::atomic<std::int64_t> broken = 0;
 };
@@ -57,36 +68,30 @@ GigeCamera::Impl::Impl(const GigeCameraOptions& o) : options(o), device(openArvD
   }
   control_signal =
       g_signal_connect(device.get(), "control-lost", G_CALLBACK(&Impl::onControlLost), this);
-  readLimits();
+  limits = regionLimits(camera.get(), options.device);
   setUp();
   openStream();
 }
 
 GigeCamera::Impl::~Impl() {
-  if (streaming) {
-    arv_camera_stop_acquisition(camera.get(), nullptr);
-  }
   g_signal_handler_disconnect(device.get(), control_signal);
+  if (streaming && !control_lost && !silent) {
+    ArvError error(options.device);
+    arv_camera_stop_acquisition(camera.get(), error.out());
+    silent = error.timedOut();
+  }
+  if (control_lost || silent) {
+    // Giving control back means asking again and again, for seconds. A camera that does not answer
+    // takes it back by itself (heartbeat), so what is held of it is left to the program's end.
+    static_cast<void>(camera.release());
+    static_cast<void>(device.release());
+  }
 }
 
-void GigeCamera::Impl::readLimits() {
-  ArvError error(options.device);
-  ArvCamera* c = camera.get();
-  arv_camera_get_sensor_size(c, &limits.sensor_width, &limits.sensor_height, error.out());
-  error.require("does not tell its sensor's size");
-  int largest = 0;
-  arv_camera_get_width_bounds(c, &limits.x.smallest, &largest, error.out());
-  error.require("does not tell its smallest width");
-  arv_camera_get_height_bounds(c, &limits.y.smallest, &largest, error.out());
-  error.require("does not tell its smallest height");
-  const auto step = [&](gint (*get)(ArvCamera*, GError**)) {
-    const int value = get(c, error.out());
-    return error.failed() || value < 1 ? 1 : value;
-  };
-  limits.x.size = step(&arv_camera_get_width_increment);
-  limits.y.size = step(&arv_camera_get_height_increment);
-  limits.x.offset = step(&arv_camera_get_x_offset_increment);
-  limits.y.offset = step(&arv_camera_get_y_offset_increment);
+/// As ArvError's, and remembers a camera that does not answer.
+void GigeCamera::Impl::require(ArvError& error, const std::string& what) {
+  silent = silent || error.timedOut();
+  error.require(what);
 }
 
 void GigeCamera::Impl::setUp() {
@@ -107,15 +112,7 @@ void GigeCamera::Impl::setUp() {
     arv_camera_set_gain(c, *options.gain, error.out());
     error.require("refuses a gain of " + std::to_string(*options.gain));
   }
-  if (options.trigger == CameraTrigger::kFreeRun) {
-    arv_camera_clear_triggers(c, error.out());
-    error.require("refuses to run without trigger");
-  } else {
-    const bool software = options.trigger == CameraTrigger::kSoftware;
-    const std::string source = software ? "Software" : options.line;
-    arv_camera_set_trigger(c, source.c_str(), error.out());
-    error.require("refuses the trigger source " + source);
-  }
+  setTrigger();
   for (const char* feature : {"PtpEnable", "GevIEEE1588"}) {  // SFNC 2.4 and before it
     if (options.follow_host_clock && arv_camera_is_feature_available(c, feature, nullptr)) {
       arv_camera_set_boolean(c, feature, TRUE, error.out());
@@ -131,10 +128,23 @@ void GigeCamera::Impl::setUp() {
   error.require("refuses its full image as region");
 }
 
+void GigeCamera::Impl::setTrigger() {
+  ArvError error(options.device);
+  if (options.trigger == CameraTrigger::kFreeRun) {
+    arv_camera_clear_triggers(camera.get(), error.out());
+    error.require("refuses to run without trigger");
+    return;
+  }
+  const bool software = options.trigger == CameraTrigger::kSoftware;
+  const std::string source = software ? "Software" : options.line;
+  arv_camera_set_trigger(camera.get(), source.c_str(), error.out());
+  error.require("refuses the trigger source " + source);
+}
+
 /// Buffers hold a full image each: a change of the region's size needs no others.
 void GigeCamera::Impl::openStream() {
   ArvError error(options.device);
-  stream.reset(arv_camera_create_stream(camera.get(), nullptr, nullptr, error.out()));
+  stream.reset(arv_camera_create_stream(camera.get(), &onStream, nullptr, error.out()));
   error.require("opens no stream");
   const auto bytes = static_cast<std::size_t>(limits.sensor_width) *
                      static_cast<std::size_t>(limits.sensor_height);
@@ -186,17 +196,17 @@ void GigeCamera::setRegion(const Window& region) {
   if (same_size) {
     ArvDevice* device = impl_->device.get();
     arv_device_set_integer_feature_value(device, "OffsetX", region.x, error.out());
-    error.require("refuses to move its region to column " + std::to_string(region.x));
+    impl_->require(error, "refuses to move its region to column " + std::to_string(region.x));
     arv_device_set_integer_feature_value(device, "OffsetY", region.y, error.out());
-    error.require("refuses to move its region to row " + std::to_string(region.y));
+    impl_->require(error, "refuses to move its region to row " + std::to_string(region.y));
   } else {
     const bool was_streaming = impl_->streaming;
     if (was_streaming) {
       stop();
     }
     arv_camera_set_region(c, region.x, region.y, region.width, region.height, error.out());
-    error.require("refuses a region of " + std::to_string(region.width) + " x " +
-                  std::to_string(region.height));
+    impl_->require(error, "refuses a region of " + std::to_string(region.width) + " x " +
+                              std::to_string(region.height));
     if (was_streaming) {
       start();
     }
@@ -210,27 +220,27 @@ void GigeCamera::setFrameRate(double rate_hz) {
   }
   ArvError error(impl_->options.device);
   arv_camera_set_frame_rate(impl_->camera.get(), rate_hz, error.out());
-  error.require("refuses " + std::to_string(rate_hz) + " images a second");
+  impl_->require(error, "refuses " + std::to_string(rate_hz) + " images a second");
 }
 
 void GigeCamera::start() {
   ArvError error(impl_->options.device);
   arv_camera_start_acquisition(impl_->camera.get(), error.out());
-  error.require("does not start");
+  impl_->require(error, "does not start");
   impl_->streaming = true;
 }
 
 void GigeCamera::stop() {
   ArvError error(impl_->options.device);
   arv_camera_stop_acquisition(impl_->camera.get(), error.out());
-  error.require("does not stop");
+  impl_->require(error, "does not stop");
   impl_->streaming = false;
 }
 
 void GigeCamera::fire() {
   ArvError error(impl_->options.device);
   arv_camera_software_trigger(impl_->camera.get(), error.out());
-  error.require("does not take the software trigger");
+  impl_->require(error, "does not take the software trigger");
 }
 
 std::optional<GigeImage> GigeCamera::take(double timeout_s) {

@@ -61,7 +61,7 @@ class GigeCamera {
   /// Opens, takes control and sets up; does not stream yet. Throws DeviceError that names the
   /// device and what it refused.
   explicit GigeCamera(const GigeCameraOptions& options);
-  /// Stops streaming and gives control back.
+  /// Stops streaming and gives control back; a camera that does not answer is left as it is.
   ~GigeCamera();
   GigeCamera(const GigeCamera&) = delete;
   GigeCamera& operator=(const GigeCamera&) = delete;

@@ -144,11 +144,14 @@ TEST(AravisStereoCamera, StampsAreTheExposuresOnTheHostsSteadyClock) {
 TEST(AravisStereoCamera, LostPacketsAreToldAndTheirImagesAreNotDelivered) {
   AravisUnderTest held(CameraTrigger::kFreeRun, 0.01);
   held.camera().setWindows({0, 0, 256, 256}, {0, 0, 256, 256});
+  std::uint64_t last = 0;
   for (int i = 0; i < 60; ++i) {
     const auto frame = next(held.camera());
     ASSERT_TRUE(frame);
     ASSERT_EQ(frame->left.pixels, pattern(0, frame->left_window).pixels);
+    last = frame->index;
   }
+  EXPECT_GT(last, 59U) << "what was lost leaves gaps in the numbers";
   const AravisCounts counts = held.aravis().counts();
   EXPECT_GT(counts.left.lost_images + counts.right.lost_images, 0);
   EXPECT_GT(counts.left.missing_packets + counts.right.missing_packets, 0);
@@ -164,6 +167,24 @@ TEST(AravisStereoCamera, ACameraThatIsNotThereIsNamed) {
   } catch (const DeviceError& e) {
     EXPECT_NE(std::string(e.what()).find("127.0.0.3"), std::string::npos) << e.what();
   }
+}
+
+TEST(AravisStereoCamera, CamerasThatGoAwayAreToldAndLetTheirHolderEnd) {
+  auto server = std::make_unique<GigeServer>(GigeServerOptions{}, PatternSource(1.0 / kRateHz));
+  AravisStereoCamera camera(optionsOf(CameraTrigger::kFreeRun));
+  ASSERT_TRUE(next(camera));
+  server.reset();
+  bool told = false;
+  for (int i = 0; i < 600 && !told; ++i) {
+    camera.setFrameRate(kRateHz + i % 2);  // a question that nobody answers
+    try {
+      static_cast<void>(camera.grab(0.1));
+    } catch (const DeviceError& e) {
+      told = true;
+      EXPECT_NE(std::string(e.what()).find("127.0.0."), std::string::npos) << e.what();
+    }
+  }
+  EXPECT_TRUE(told);
 }
 
 TEST(GigeServer, AnAddressThatIsNotOursIsNamed) {

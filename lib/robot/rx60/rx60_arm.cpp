@@ -48,6 +48,8 @@ void Rx60Arm::end() noexcept {
 // ---- one wake-up
 
 void Rx60Arm::run() noexcept {
+  const RaisedPriority raised(kLinkRank);
+  priority_ = raised.reached();
   Lock lock(mutex_);
   while (!ending_) {
     try {

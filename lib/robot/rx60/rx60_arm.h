@@ -3,16 +3,19 @@
 /// \file
 /// An RX60 behind the Arm interface, over its protocol (link.h). Two ways to run it:
 /// - on a thread of its own: the real arm. The thread sleeps until the controller speaks, answers
-///   within microseconds, and keeps the arm safe even when the program's own loop is late;
+///   within microseconds, and keeps the arm safe even when the program's own loop is late. It has
+///   real-time priority where that is permitted (core/thread_priority.h);
 /// - on the caller's thread, inside waitState(): a simulated controller in virtual time, where
 ///   every run is the same.
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "core/thread_priority.h"
 #include "robot/arm.h"
 #include "robot/rx60/link.h"
 #include "robot/rx60/link_port.h"
@@ -58,6 +61,8 @@ class Rx60Arm : public Arm {
   void awaitNews();
   /// How the link is doing; never throws, also during a fault.
   [[nodiscard]] rx60::LinkReport report() const;
+  /// Of the arm's own thread.
+  [[nodiscard]] ThreadPriority priority() const { return priority_; }
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -84,6 +89,7 @@ class Rx60Arm : public Arm {
   bool any_given_ = false;
   std::int64_t turns_ = 0;  ///< wake-ups
   bool ending_ = false;
+  std::atomic<ThreadPriority> priority_ = ThreadPriority::kOrdinary;
   std::thread thread_;
 };
 
