@@ -7,6 +7,12 @@
 #include "cycle/task_paths.h"
 
 namespace ringhook {
+namespace {
+
+constexpr const char* kStale = "hook's estimate stale";
+
+}  // namespace
+
 const char* phaseName(TaskPhase phase) {
   static constexpr std::array kNames = {"load",  "grip",    "standby", "wait",  "approach", "align",
                                         "lower", "release", "retreat", "watch", "back off", "done"};
@@ -101,26 +107,31 @@ TaskCommand TaskControl::grip(const ArmState& state) {
 TaskCommand TaskControl::wait(const ArmState& state) {
   TaskCommand command;
   command.velocity = motion_.rest(state);
-  if (hook_seen_ && hook_->ready) {
-    const Outcome<HookEstimate> now = predictHook(*hook_, state.time);
-    if (now) {
-      const double travel = hookTravel(cell_, now->fMo);
-      const double speed = hookTravelSpeed(cell_, *now);
-      if (travel + std::abs(speed) * insertionTime(cell_, path_parameters_) >
-          cell_.belt.pick_to_m) {
-        abort("hook came too late for the arm's window", state);
-      } else if (travel >= cell_.belt.pick_from_m) {
-        result_.met = state.time;
-        const Pose oMr = now->fMo.inverse() * motion_.ringPose(state.position);
-        enterPath(TaskPhase::kApproach, InsertionPhase::kApproach, oMr, state);
-      }
-      return command;
+  if (result_.tries > 0 && !hook_seen_) {
+    abort(kStale, state);  // the hook that was to be tried again is gone
+  } else if (hook_seen_ && hook_->ready && !stale(state)) {
+    if (const Outcome<HookEstimate> now = predictHook(*hook_, state.time)) {
+      meet(*now, state);
     }
-  }
-  if (state.time - phase_start_ > cell_.task.hook_timeout_s) {
-    abort("no hook came", state);
+  } else if (state.time - phase_start_ > cell_.task.hook_timeout_s) {
+    abort(result_.tries > 0 ? kStale : "no hook came", state);
   }
   return command;
+}
+
+/// Begins the approach once the hook is in the window, unless it will leave too soon.
+void TaskControl::meet(const HookEstimate& hook, const ArmState& state) {
+  const double travel = hookTravel(cell_, hook.fMo);
+  const double speed = hookTravelSpeed(cell_, hook);
+  if (travel + std::abs(speed) * insertionTime(cell_, path_parameters_) > cell_.belt.pick_to_m) {
+    abort(result_.tries > 0 ? kStale : "hook came too late for the arm's window", state);
+  } else if (travel >= cell_.belt.pick_from_m) {
+    ++result_.tries;
+    result_.abort_reason.clear();
+    result_.met = result_.met.value_or(state.time);
+    const Pose oMr = hook.fMo.inverse() * motion_.ringPose(state.position);
+    enterPath(TaskPhase::kApproach, InsertionPhase::kApproach, oMr, state);
+  }
 }
 
 TaskCommand TaskControl::follow(const ArmState& state) {
@@ -212,7 +223,8 @@ TaskCommand TaskControl::backOff(const ArmState& state) {
   }
   command.velocity = motion_.rest(state);
   if (command.velocity.isZero()) {
-    enter(TaskPhase::kDone, state);
+    const bool again = may_try_again_ && hook_seen_ && !stale(state);
+    enter(again ? TaskPhase::kWait : TaskPhase::kDone, state);
   }
   return command;
 }
@@ -220,9 +232,8 @@ TaskCommand TaskControl::backOff(const ArmState& state) {
 TaskCommand TaskControl::resting(const ArmState& state) {
   TaskCommand command;
   command.velocity = motion_.rest(state);
-  const bool released = result_.released_at.has_value();
   if (phase_ == TaskPhase::kWatch &&
-      (!released || state.time - *result_.released_at >= cell_.task.watch_s)) {
+      (!result_.released_at || state.time - *result_.released_at >= cell_.task.watch_s)) {
     enter(TaskPhase::kDone, state);
   }
   return command;
@@ -245,6 +256,7 @@ void TaskControl::abort(const std::string& reason, const ArmState& state) {
   result_.released = false;
   const bool near_hook =
       phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign || phase_ == TaskPhase::kLower;
+  may_try_again_ = near_hook && reason == kStale;
   const std::optional<Pose> fMo = near_hook ? hookNow(state) : std::nullopt;
   path_.clear();
   if (fMo) {
@@ -262,8 +274,8 @@ std::string TaskControl::whyNotFollow(const ArmState& state) const {
   if (!hook_seen_) {
     return "hook lost";
   }
-  if (state.time - hook_->time > cell_.vision.stale_after_s) {
-    return "hook's estimate stale";
+  if (stale(state)) {
+    return kStale;
   }
   const std::optional<Pose> fMo = hookNow(state);
   const bool inserting = phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign;
@@ -271,6 +283,10 @@ std::string TaskControl::whyNotFollow(const ArmState& state) const {
     return "hook left the arm's window";
   }
   return {};
+}
+
+bool TaskControl::stale(const ArmState& state) const {
+  return state.time - hook_->time > cell_.vision.stale_after_s;
 }
 
 std::optional<Pose> TaskControl::hookNow(const ArmState& state) const {

@@ -9,7 +9,10 @@
 ///                                   abort: BackOff -> Done, the ring stays in the gripper
 ///
 /// What aborts an attempt is named: estimate stale or lost, alignment not reached in time, ring off
-/// its path while lowering, hook out of the arm's window, no hook. Reads no clock and no device.
+/// its path while lowering, hook out of the arm's window, no hook. A stale estimate says nothing
+/// against the hook: once the ring is away from it and the estimate fresh again, the same hook is
+/// tried once more (BackOff -> Wait), if it can still be served in the arm's window. Reads no clock
+/// and no device.
 
 #include <optional>
 #include <string>
@@ -51,6 +54,7 @@ struct TaskCommand {
 /// What became of one hook.
 struct AttemptResult {
   bool released = false;            ///< the ring was let go over the tip
+  int tries = 0;                    ///< approaches to the hook
   std::string abort_reason;         ///< why not; empty if released
   Time started;                     ///< first state of the attempt
   std::optional<Time> met;          ///< approach began
@@ -79,6 +83,7 @@ class TaskControl {
   TaskCommand coarse(const ArmState& state, const JointVector& target, TaskPhase next);
   TaskCommand grip(const ArmState& state);
   TaskCommand wait(const ArmState& state);
+  void meet(const HookEstimate& hook, const ArmState& state);
   TaskCommand follow(const ArmState& state);
   TaskCommand backOff(const ArmState& state);
   TaskCommand resting(const ArmState& state);
@@ -89,6 +94,7 @@ class TaskControl {
   void advanceFromAlign(const ArmState& state, double error_m);
   void abort(const std::string& reason, const ArmState& state);
   [[nodiscard]] std::string whyNotFollow(const ArmState& state) const;
+  [[nodiscard]] bool stale(const ArmState& state) const;
   [[nodiscard]] std::optional<Pose> hookNow(const ArmState& state) const;
 
   CellConfig cell_;
@@ -102,6 +108,7 @@ class TaskControl {
   std::optional<Time> aligned_since_;
   std::optional<HookFilterState> hook_;  ///< newest estimate, kept when the hook is lost
   bool hook_seen_ = false;               ///< vision has an estimate now
+  bool may_try_again_ = false;           ///< what aborted says nothing against the hook
   std::optional<bool> gripper_order_;    ///< to go out with the next command
   AttemptResult result_;
 };

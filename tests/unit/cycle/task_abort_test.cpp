@@ -15,6 +15,7 @@ using test::MovingHook;
 using test::Sight;
 using test::TaskBench;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
@@ -60,6 +61,47 @@ TEST(TaskAbort, StaleEstimateWhileLoweringIsNamedAndTheRingRisesAway) {
             bench.cell.task.tip_o.z() + 0.8 * bench.cell.task.hover_m);
   EXPECT_LT(least_side, -0.05) << "and leave beside the hook";
   EXPECT_THAT(bench.broken_limits, IsEmpty());
+}
+
+TEST(TaskAbort, StaleEstimateThatIsFreshAgainIsTriedOnceMoreOnTheSameHook) {
+  TaskBench bench(test::defaultCell(), MovingHook{});
+  lowerHalfway(bench);
+  ASSERT_TRUE(bench.runTo(TaskPhase::kBackOff, Sight::kFrozen));
+  bench.phases.clear();
+  ASSERT_TRUE(bench.finish());
+  const AttemptResult& result = bench.task.result();
+  EXPECT_TRUE(result.released) << result.abort_reason;
+  EXPECT_THAT(result.abort_reason, IsEmpty());
+  EXPECT_EQ(result.tries, 2);
+  EXPECT_THAT(bench.phases, ElementsAre(TaskPhase::kBackOff, TaskPhase::kWait, TaskPhase::kApproach,
+                                        TaskPhase::kAlign, TaskPhase::kLower, TaskPhase::kRelease,
+                                        TaskPhase::kRetreat, TaskPhase::kWatch));
+  ASSERT_EQ(bench.orders.size(), 2U) << "closed once, opened once";
+  EXPECT_LT((bench.orders[1].oMr.translation() - bench.cell.task.release_o).norm(), 1e-3);
+  EXPECT_THAT(bench.broken_limits, IsEmpty());
+}
+
+TEST(TaskAbort, HookThatLeavesTheWindowMeanwhileIsNotTriedAgain) {
+  CellConfig cell = test::defaultCell();
+  cell.belt.pick_to_m = 0.0;  // enough for one try at 0.05 m/s, not for two
+  TaskBench bench(cell, MovingHook{});
+  lowerHalfway(bench);
+  ASSERT_TRUE(bench.runTo(TaskPhase::kBackOff, Sight::kFrozen));
+  ASSERT_TRUE(bench.finish());
+  EXPECT_FALSE(bench.task.result().released);
+  EXPECT_EQ(bench.task.result().abort_reason, "hook's estimate stale");
+  EXPECT_EQ(bench.task.result().tries, 1);
+  EXPECT_TRUE(keptTheRing(bench));
+}
+
+TEST(TaskAbort, HookThatIsLostAfterAStaleEstimateEndsTheAttempt) {
+  TaskBench bench(test::defaultCell(), MovingHook{});
+  lowerHalfway(bench);
+  ASSERT_TRUE(bench.runTo(TaskPhase::kBackOff, Sight::kFrozen));
+  ASSERT_TRUE(bench.runTo(TaskPhase::kWait));
+  ASSERT_TRUE(bench.finish(Sight::kNothing));
+  EXPECT_EQ(bench.task.result().abort_reason, "hook's estimate stale");
+  EXPECT_THAT(bench.phases, Not(Contains(TaskPhase::kRelease)));
 }
 
 TEST(TaskAbort, HookLostWhileLoweringIsNamedAtOnce) {
