@@ -37,8 +37,10 @@ CellOptions worldOptions(const CellJob& job, const Scenario& scenario) {
   CellOptions options = scenario.cell;
   options.seed = job.seed;
   if (job.hooks > 0) {
-    options.hook.count = options.ring.count = job.hooks;
+    options.hook.count = job.hooks;
   }
+  options.ring.count = options.hook.count;  // more would lie about and cost time
+  options.physics_step = kLivePhysicsStep;
   return options;
 }
 
@@ -130,6 +132,7 @@ nlohmann::ordered_json serveCell(const CellJob& job) {
   if (log) {
     log->commit();
   }
+  std::fprintf(stderr, "served with %s priority\n", nameOf(server.arm().priority()));
   const CellTruth end = truth(world);
   const Rx60Counts counts = server.controller().counts();
   printController(counts, server.arm().lateTicks());

@@ -16,7 +16,7 @@ namespace ringhook {
 CellOptions hangingHookCell(double swing_about_x, double swing_about_y);
 
 struct HangingHookRun {
-  std::vector<PendulumSample> about_x;  ///< swing about x_f, every 0.5 ms
+  std::vector<PendulumSample> about_x;  ///< swing about x_f, after every physics step
   std::vector<double> energy;           ///< mechanical, above hanging still, at those instants [J]
 };
 

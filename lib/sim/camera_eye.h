@@ -22,6 +22,8 @@ class CameraEye {
   [[nodiscard]] const Pinhole& pinhole() const { return eye_; }
   /// All of the image plane that the sensor can see.
   [[nodiscard]] const Window& plane() const { return plane_; }
+  /// Of it, what the exposure that was begun shows.
+  [[nodiscard]] const Window& seen() const { return seen_; }
 
   /// Starts an exposure of `window`, which lies in the full image.
   /// \param moving parts of the plane that change during the exposure, none overlapping another.

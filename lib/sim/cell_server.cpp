@@ -12,8 +12,14 @@ namespace {
 constexpr int kDrawingNice = 10;
 
 /// For this thread and the threads that it starts from now on (setpriority(2) on Linux: nice values
-/// are per thread).
-void yieldToTicks() { ::setpriority(PRIO_PROCESS, 0, kDrawingNice); }
+/// are per thread). Where ticks have real-time priority they need no yielding.
+void yieldToTicks() {
+  static const bool ticks_are_first =
+      RaisedPriority(kTickRank).reached() == ThreadPriority::kRealTime;
+  if (!ticks_are_first) {
+    ::setpriority(PRIO_PROCESS, 0, kDrawingNice);
+  }
+}
 
 /// Made on a thread of low priority: the renderer's own threads inherit it.
 std::unique_ptr<StereoEyes> makeEyes(CellWorld& world, const StereoRig& rig,
@@ -63,14 +69,14 @@ CellServer::CellServer(CellWorld& world, const StereoRig& true_rig,
 CellServer::~CellServer() { exposures_.close(); }
 
 void CellServer::run(const std::atomic<bool>& stop, double seconds) {
-  arm_.onTick([this](Time) {
-    // Before the tick the world is where the last one left it.
+  arm_.afterTick([this](Time next) {
     const Time steady = arm_.startedAt() + world_.time().seconds();
     exposures_.worldIsAt(steady.nanoseconds() + realMinusSteady_ns());
     cameras_.rethrowFailure();
     if (on_tick_) {
       on_tick_(world_.time());
     }
+    world_.advanceTo(next);
   });
   if (arm_.waitForClient(stop)) {
     arm_.run(stop, seconds);

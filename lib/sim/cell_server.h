@@ -2,9 +2,11 @@
 
 /// \file
 /// The simulated cell as a place of its own, in real time: the RX60's controller on TCP and two
-/// GigE Vision cameras, around one world. The controller's ticks move the world; the cameras'
-/// pictures are drawn beside it, at the rate that this host manages. The belt starts when the arm's
-/// first client connects: until then nothing moves and pictures are dark.
+/// GigE Vision cameras, around one world. What the arm is told in a tick acts until the next one,
+/// so the world is moved to the next tick as soon as one is over, in the time that is left; a tick
+/// itself only reads and answers. The cameras' pictures are drawn beside it, at the rate that this
+/// host manages. The belt starts when the arm's first client connects: until then nothing moves and
+/// pictures are dark.
 
 #include <atomic>
 #include <cstdint>
@@ -21,6 +23,10 @@
 #include "sim/rx60_server.h"
 
 namespace ringhook {
+
+/// Physics step for a cell in real time [s]: twice the usual one, for half the processor time. What
+/// that costs is in doc/simulation.md.
+inline constexpr double kLivePhysicsStep = 0.001;
 
 struct CellServerOptions {
   Rx60ServerOptions arm;
@@ -42,7 +48,7 @@ class CellServer {
   [[nodiscard]] Rx60Controller& controller() { return controller_; }
   [[nodiscard]] Rx60Server& arm() { return arm_; }
 
-  /// Called after each of the controller's ticks' instants, with the world's time.
+  /// Called after each of the controller's ticks, with the world's time.
   void onTick(std::function<void(Time)> action) { on_tick_ = std::move(action); }
 
   /// Waits for the arm's first client, then serves on the caller's thread until `stop` is set or

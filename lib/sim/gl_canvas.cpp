@@ -96,10 +96,11 @@ GlDepthMap::~GlDepthMap() {
   glDeleteTextures(1, &texture_);
 }
 
-void GlDepthMap::begin() const {
+void GlDepthMap::begin(int x, int y, int width, int height) const {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
-  glDisable(GL_SCISSOR_TEST);
   glViewport(0, 0, side_, side_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(x, y, width, height);
   glClear(GL_DEPTH_BUFFER_BIT);
 }
 

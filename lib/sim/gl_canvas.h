@@ -40,8 +40,8 @@ class GlDepthMap {
   GlDepthMap& operator=(const GlDepthMap&) = delete;
 
   [[nodiscard]] int side() const { return side_; }
-  /// Draw into the whole map from now on; clears it.
-  void begin() const;
+  /// Draw into the rectangle from now on; clears it.
+  void begin(int x, int y, int width, int height) const;
   /// For a sampler2DShadow: farther than the map is 0, outside of the map nothing is hidden.
   [[nodiscard]] unsigned texture() const { return texture_; }
 

@@ -21,8 +21,9 @@ std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(1e9 
 
 void LiveExposures::worldIsAt(std::int64_t real_ns) {
   {
-    const std::lock_guard lock(mutex_);
-    if (!wanted_s_ || closed_) {
+    // The drawing threads are the last to get a processor, also while they hold this.
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || !wanted_s_ || closed_) {
       return;
     }
     if (*wanted_s_ != sensor_.exposure_s) {

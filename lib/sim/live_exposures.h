@@ -22,8 +22,9 @@ class LiveExposures {
   LiveExposures(StereoEyes& eyes, double transport_delay_s)
       : eyes_(eyes), sensor_(eyes.sensor()), transport_delay_s_(transport_delay_s) {}
 
-  /// The world's thread, between two of its steps. \param real_ns the host's real time at which the
-  /// world's present instant is now [ns].
+  /// The world's thread, between two of its steps; never waits, and leaves a camera that is just
+  /// asking to the next instant. \param real_ns the host's real time at which the world's present
+  /// instant is now [ns].
   void worldIsAt(std::int64_t real_ns);
 
   /// A camera's thread: an exposure and its pictures; nothing once closed.

@@ -60,7 +60,7 @@ Eigen::Matrix4d clipFromKey(const Eigen::Vector3d& towards_key) {
 struct Renderer::Impl {
   Impl(const mjModel_& model, const SceneLight& lamps, int width, int height);
   ~Impl();
-  void drawShadows();
+  void drawShadows(const std::vector<SeenPart>& seen);
   [[nodiscard]] ScenePrograms::View viewOf(const Pinhole& eye, const Window& plane) const;
   void chooseVisible(const Pinhole& eye, const Window& part);
   void drawPart(const GlCanvas& canvas, const Pinhole& eye, const Window& plane, const Window& part,
@@ -100,15 +100,21 @@ Renderer::Impl::~Impl() {
   gl.reset();
 }
 
-void Renderer::Impl::drawShadows() {
-  gl->shadows.begin();
+void Renderer::Impl::drawShadows(const std::vector<SeenPart>& seen) {
+  const ShadowBox box{key_clip, gl->shadows.side()};
+  const Window texels = shadowTexels(box, solids, seen);
+  if (texels.empty()) {
+    return;
+  }
+  gl->shadows.begin(texels.x, texels.y, texels.width, texels.height);
   gl->programs.useDepth(key_clip.cast<float>());
   glDisable(GL_CULL_FACE);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.0F, 8.0F);
   wanted.resize(solids.size());
-  std::transform(solids.begin(), solids.end(), wanted.begin(),
-                 [](const Solid& solid) { return solid.isSheet() ? 0 : 1; });
+  std::transform(solids.begin(), solids.end(), wanted.begin(), [&](const Solid& solid) {
+    return static_cast<char>(!solid.isSheet() && throwsInto(solid, box, texels) ? 1 : 0);
+  });
   gl->batches.draw(solids, wanted, Eigen::Vector3d::Zero(), [](TextureKind, bool) {});
   glDisable(GL_POLYGON_OFFSET_FILL);
   glEnable(GL_CULL_FACE);
@@ -161,11 +167,11 @@ Renderer::Renderer(const mjModel_& model, const SceneLight& light, int width, in
     : impl_(std::make_unique<Impl>(model, light, width, height)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::setScene(const std::vector<Solid>& solids) {
+void Renderer::setScene(const std::vector<Solid>& solids, const std::vector<SeenPart>& seen) {
   const EglContext::Current current(impl_->egl);
   impl_->solids = solids;
   if (impl_->light.shadow_map_px > 0) {
-    impl_->drawShadows();
+    impl_->drawShadows(seen);
   }
 }
 

@@ -17,7 +17,7 @@
 
 #include "core/image.h"
 #include "sim/scene_light.h"
-#include "sim/solids.h"
+#include "sim/shadow_part.h"
 
 struct mjModel_;
 
@@ -43,7 +43,8 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Takes over the solids and draws their shadows; call once per instant, before any draws.
-  void setScene(const std::vector<Solid>& solids);
+  /// \param seen what will be drawn of this instant; shadows are drawn where that can show them.
+  void setScene(const std::vector<Solid>& solids, const std::vector<SeenPart>& seen);
 
   /// Draws `part` of the plane, row after row. `plane` is the whole rectangle of the image plane
   /// that the camera can ever see; `part` lies in it.

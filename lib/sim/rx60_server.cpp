@@ -10,6 +10,7 @@ namespace ringhook {
 namespace {
 
 constexpr std::int64_t kTickNs = 4'000'000;
+constexpr double kLongestTurn = 0.1;  // at work without a pause, with real-time priority [s]
 // Within a tick the streamer's task comes before the receivers', and so do its messages: a client
 // reads why motion is not possible before it reads that a command was refused.
 constexpr std::array<Rx60Socket, kRx60Sockets.size()> kSendingOrder = {
@@ -77,6 +78,7 @@ void Rx60Server::sleepUntil(Time wake) {
   }
   const std::int64_t left_ns =
       std::clamp<std::int64_t>(wake.nanoseconds() - now_.nanoseconds(), 0, kTickNs);
+  slept_ = left_ns > 0 ? wake : slept_;
   const timespec timeout{0, static_cast<long>(left_ns)};
   ::ppoll(sockets.data(), sockets.size(), &timeout, nullptr);
 }
@@ -130,6 +132,9 @@ void Rx60Server::runTick(Time clock) {
       drop(socket, "client gone or does not read");
     }
   }
+  if (after_tick_) {
+    after_tick_(tickTime(tick_));
+  }
 }
 
 bool Rx60Server::waitForClient(const std::atomic<bool>& stop) const {
@@ -146,7 +151,18 @@ bool Rx60Server::waitForClient(const std::atomic<bool>& stop) const {
   return false;
 }
 
+/// A host that cannot keep up shall not be kept from everything else as well.
+void Rx60Server::shareProcessor(RaisedPriority& raised, Time now) {
+  if (raised.reached() == ThreadPriority::kRealTime && now - slept_ > kLongestTurn) {
+    raised.giveBack();
+    priority_ = raised.reached();
+    tell("no time left between ticks: real-time priority given back");
+  }
+}
+
 void Rx60Server::run(const std::atomic<bool>& stop, double seconds) {
+  RaisedPriority raised(kTickRank);
+  priority_ = raised.reached();
   started_ = steadyNow();
   const auto clock = [this] { return Time::fromSeconds(steadyNow() - started_); };
   while (!stop.load() && clock().seconds() < seconds) {
@@ -158,6 +174,7 @@ void Rx60Server::run(const std::atomic<bool>& stop, double seconds) {
     }
     if (now_ >= tickTime(tick_)) {
       runTick(now_);
+      shareProcessor(raised, now_);
     }
   }
   for (const Rx60Socket socket : kRx60Sockets) {

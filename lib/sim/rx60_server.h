@@ -4,7 +4,8 @@
 /// The simulated controller on real TCP sockets, as a client on a network meets it: four listening
 /// ports, ticks every 4 ms of the host's steady clock on an absolute grid. A host that is too slow
 /// for a tick leaves it out (and counts it) instead of catching up: two ticks at once would make a
-/// faster controller than there is.
+/// faster controller than there is. The serving thread has real-time priority where that is
+/// permitted (core/thread_priority.h), until it finds no more time to wait.
 
 #include <array>
 #include <atomic>
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/thread_priority.h"
 #include "sim/rx60_controller.h"
 #include "sim/rx60_lines.h"
 #include "sim/tcp_listener.h"
@@ -37,6 +39,9 @@ class Rx60Server final : public Rx60Lines {
 
   /// Called before each of the controller's ticks, with the time since run() began.
   void onTick(std::function<void(Time)> action) { on_tick_ = std::move(action); }
+  /// Called after each tick, once its messages are sent, with the time of the next one: for work
+  /// that can be done ahead.
+  void afterTick(std::function<void(Time)> action) { after_tick_ = std::move(action); }
   /// Called for each connection that comes, goes or is turned away.
   void onEvent(std::function<void(Time, const std::string&)> action) {
     on_event_ = std::move(action);
@@ -52,6 +57,8 @@ class Rx60Server final : public Rx60Lines {
   /// Instant of the host's steady clock at which run() began.
   [[nodiscard]] Time startedAt() const { return started_; }
   [[nodiscard]] std::int64_t lateTicks() const { return late_ticks_; }  ///< left out
+  /// Of the thread in run(): the one that it began with, or ordinary if it had to give it back.
+  [[nodiscard]] ThreadPriority priority() const { return priority_; }
 
   // Faults of the lines; from onTick() or before run().
   [[nodiscard]] FaultyLine& toClient(Rx60Socket socket) override { return at(socket).to_client; }
@@ -69,6 +76,7 @@ class Rx60Server final : public Rx60Lines {
   [[nodiscard]] Wire& at(Rx60Socket socket) { return wires_[static_cast<std::size_t>(socket)]; }
   void tell(const std::string& what);
   void sleepUntil(Time wake);
+  void shareProcessor(RaisedPriority& raised, Time now);
   [[nodiscard]] Time nextEvent() const;
   void serve(Rx60Socket socket);
   void drop(Rx60Socket socket, const std::string& why);
@@ -77,11 +85,14 @@ class Rx60Server final : public Rx60Lines {
   Rx60Controller& controller_;
   std::vector<Wire> wires_;
   std::function<void(Time)> on_tick_;
+  std::function<void(Time)> after_tick_;
   std::function<void(Time, const std::string&)> on_event_;
   Time started_;           ///< host's steady clock
   Time now_;               ///< since run() began
   std::int64_t tick_ = 1;  ///< number of the next one, at tick_ * 4 ms
   std::int64_t late_ticks_ = 0;
+  Time slept_;  ///< when it last had time to wait
+  ThreadPriority priority_ = ThreadPriority::kOrdinary;
 };
 
 }  // namespace ringhook

@@ -98,11 +98,17 @@ std::array<GrayImage, 2> StereoEyes::develop(const CapturedExposure& exposure,
   for (std::size_t side = 0; side < 2; ++side) {
     my.eyes[side].begin(windows[side], exposure.moving[side]);
   }
+  std::vector<SeenPart> seen;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!windows[side].empty()) {
+      seen.push_back({my.eyes[side].pinhole(), my.eyes[side].seen()});
+    }
+  }
   const std::uint64_t seed = my.world.options().seed;
   std::array<GrayImage, 2> images;
   std::future<GrayImage> left;
   for (std::size_t i = 0; i < exposure.weights.size(); ++i) {
-    my.renderer.setScene(exposure.solids[i]);
+    my.renderer.setScene(exposure.solids[i], seen);
     my.collect(0, windows, exposure.weights[i]);
     if (i + 1 == exposure.weights.size() && !windows[0].empty()) {
       left = std::async(std::launch::async,  // while the right side is drawn
@@ -124,7 +130,7 @@ std::array<GrayImage, 2> StereoEyes::develop(const CapturedExposure& exposure,
 void StereoEyes::draw(const Pinhole& eye, const Window& plane, ColourImage& image) {
   Impl& my = *impl_;
   my.motion.solidsAt(my.world.time().seconds(), 0.0, my.ends.start);
-  my.renderer.setScene(my.ends.start);
+  my.renderer.setScene(my.ends.start, {{eye, plane}});
   my.renderer.drawColour(eye, plane, image);
 }
 

@@ -171,6 +171,44 @@ TEST_F(Rx60Tcp, EndsByItselfAfterItsSeconds) {
   EXPECT_LE(controller.counts().ticks + server.lateTicks(), 13) << "never two ticks for one";
 }
 
+TEST_F(Rx60Tcp, WorkAheadIsDoneAfterEachTickAndKnowsTheNextOne) {
+  const std::atomic<bool> never{false};
+  std::vector<Time> instants;
+  std::vector<Time> next_ones;
+  server.onTick([&](Time now) { instants.push_back(now); });
+  server.afterTick([&](Time next) {
+    EXPECT_EQ(next_ones.size() + 1, instants.size());
+    EXPECT_EQ(controller.counts().ticks, static_cast<std::int64_t>(instants.size()));
+    next_ones.push_back(next);
+  });
+  server.run(never, 0.05);
+  ASSERT_EQ(next_ones.size(), instants.size());
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    EXPECT_EQ(next_ones[i], instants[i] + Rx60Controller::kTick);
+  }
+}
+
+TEST_F(Rx60Tcp, WorkThatTakesAllTheTimeCostsTicksAndThePriority) {
+  server.onEvent([this](Time, const std::string& what) { events.push_back(what); });
+  const std::atomic<bool> never{false};
+  bool was_real_time = false;
+  std::size_t turns = 0;
+  server.afterTick([&](Time) {
+    was_real_time = was_real_time || server.priority() == ThreadPriority::kRealTime;
+    const auto begin = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(10)) {
+      ++turns;
+    }
+  });
+  server.run(never, 0.3);
+  EXPECT_GT(turns, 0U);
+  EXPECT_GT(server.lateTicks(), controller.counts().ticks);
+  EXPECT_NE(server.priority(), ThreadPriority::kRealTime);
+  if (was_real_time) {
+    EXPECT_THAT(events, ::testing::Contains(HasSubstr("real-time priority given back")));
+  }
+}
+
 TEST(Rx60Server, PortInUseIsNamed) {
   KinematicPlant plant;
   Rx60Controller controller(plant);
