@@ -47,15 +47,16 @@ void printStatistic(const char* name, const Statistics& s, double factor, const 
 
 void printDevices(const LiveReport& live) {
   const AravisCounts& c = live.cameras;
+  printStatistic("between frames, a hook tracked:", live.frame_interval_s, 1e3, "ms");
   std::printf("%-34s %lld, unpaired %lld, lost %lld, passed over %lld\n",
               "pairs of images:", static_cast<long long>(c.pairs),
               static_cast<long long>(c.unpaired_left + c.unpaired_right),
               static_cast<long long>(c.left.lost_images + c.right.lost_images),
               static_cast<long long>(live.frames_passed_over));
-  std::printf("%-34s %lld, left out %lld; period %.3f ms, jitter %.3f ms\n",
+  std::printf("%-34s %lld, left out %lld; period %.3f ms, jitter %.3f ms, priority %s\n",
               "velocities sent to the arm:", static_cast<long long>(live.arm.commands),
               static_cast<long long>(live.arm.left_out), 1e3 * live.arm.arrivals.period_s,
-              1e3 * live.arm.arrivals.jitter_s);
+              1e3 * live.arm.arrivals.jitter_s, nameOf(live.link_priority));
 }
 
 void printEnd(const ServoReport& report, const ServoArguments& arguments) {
@@ -114,6 +115,9 @@ void runCommand(const ServoArguments& arguments) {
     copy->commit();
   }
   printEnd(report, arguments);
+  if (!report.failure.empty()) {
+    throw DeviceError(report.failure);
+  }
   if (report.interrupted) {
     throw Interrupted("stopped by the operator: the arm stands still, finished hooks are in " +
                       (job.out / "summary.json").string());

@@ -1,6 +1,7 @@
 #include "evaluation/live_run.h"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -21,8 +22,13 @@ class LiveObserver : public LoopObserver {
 
   void startAttempt(int attempt) { attempt_ = attempt; }
 
-  void onFrame(const StereoFrame& /*frame*/, const VisionReport& report, double age_s) override {
+  void onFrame(const StereoFrame& frame, const VisionReport& report, double age_s) override {
     countFrame(report, age_s, vision_);
+    const bool tracked = report.state != VisionState::kSearching;
+    if (tracked && last_frame_) {
+      interval_s_.add(frame.time - *last_frame_);
+    }
+    last_frame_ = tracked ? std::optional(frame.time) : std::nullopt;
   }
   void onCommand(const ArmState& state, const TaskCommand& command) override {
     countCommand(state, command, limits_, control_);
@@ -35,12 +41,16 @@ class LiveObserver : public LoopObserver {
     all.merge(control_);
     return all;
   }
+  /// Likewise; between frames while a hook is tracked [s].
+  [[nodiscard]] const Statistics& frameInterval() const { return interval_s_; }
 
  private:
   const ServoProgress& progress_;
   JointLimits limits_;
   int attempt_ = 0;
-  LoopStatistics vision_;   // of vision's thread
+  LoopStatistics vision_;  // of vision's thread, as the next two
+  Statistics interval_s_;
+  std::optional<Time> last_frame_;
   LoopStatistics control_;  // of the control side
 };
 
@@ -82,10 +92,14 @@ ServoReport runLiveServo(const ServoJob& job, const CellConfig& cell, const std:
     report.live->frames_passed_over = thread.passedOver();
   } catch (const Interrupted&) {
     report.interrupted = true;
+  } catch (const DeviceError& e) {
+    report.failure = e.what();
   }
   report.statistics = observer.statistics();
+  report.live->frame_interval_s = observer.frameInterval();
   report.live->cameras = camera->counts();
   report.live->arm = arm->report();
+  report.live->link_priority = arm->priority();
   return report;
 }
 

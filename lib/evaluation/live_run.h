@@ -9,9 +9,9 @@
 
 namespace ringhook {
 
-/// \param cell one whose devices are on a network. Throws DeviceError when a device fails, after
-/// the arm was stopped; an interruption is no error here: the report says so and holds what was
-/// finished.
+/// \param cell one whose devices are on a network. Throws DeviceError if one cannot be opened. An
+/// interruption and the failure of a device at work are no errors here: the arm was stopped before
+/// anything else, the report says so and holds what was finished.
 ServoReport runLiveServo(const ServoJob& job, const CellConfig& cell, const std::atomic<bool>& stop,
                          const ServoProgress& progress, const AttemptDone& attempt_done);
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "camera/aravis_stereo_camera.h"
+#include "core/thread_priority.h"
 #include "cycle/hook_sight.h"
 #include "cycle/task_control.h"
 #include "evaluation/servo_witness.h"
@@ -48,7 +49,9 @@ struct ServoAttempt {
 struct LiveReport {
   AravisCounts cameras;
   rx60::LinkReport arm;
+  ThreadPriority link_priority = ThreadPriority::kOrdinary;  ///< of the thread that speaks with it
   std::int64_t frames_passed_over = 0;  ///< a newer one had come when vision got to them
+  Statistics frame_interval_s;          ///< between frames while a hook is tracked
 };
 
 struct ServoReport {
@@ -58,6 +61,7 @@ struct ServoReport {
   std::optional<LiveReport> live;      ///< of a cell on a network
   LoopStatistics statistics;
   bool interrupted = false;
+  std::string failure;             ///< of a device on a network, in words; empty if none
   std::filesystem::path sequence;  ///< recorded cycle; empty if none
   std::filesystem::path picture;   ///< of the hanging ring; empty if none hung
 };
@@ -67,8 +71,9 @@ using ServoProgress = std::function<void(int attempt, TaskPhase phase, double ti
 /// Told after every attempt.
 using AttemptDone = std::function<void(int attempt, const ServoAttempt&)>;
 
-/// Throws InputError for bad files, DeviceError when a device fails; an interruption is no error
-/// here: the report says so and holds what was finished.
+/// Throws InputError for bad files, DeviceError for a device that cannot be opened. An interruption
+/// and the failure of a device at work are no errors here: the arm was stopped, the report says so
+/// and holds what was finished.
 ServoReport runServo(const ServoJob& job, const std::atomic<bool>& stop,
                      const ServoProgress& progress, const AttemptDone& attempt_done);
 

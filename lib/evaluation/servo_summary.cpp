@@ -36,7 +36,8 @@ std::string outcomeInWords(const ServoAttempt& attempt) {
     return "aborted: " + attempt.loop.abort_reason;
   }
   if (!attempt.truth) {
-    return "ring released";
+    return attempt.loop.tries > 1 ? "ring released, try " + std::to_string(attempt.loop.tries)
+                                  : "ring released";
   }
   return attempt.truth->hanging ? "ring hangs" : "ring fell";
 }
@@ -46,6 +47,7 @@ double duration(const AttemptResult& result) { return result.ended - result.star
 Json attemptJson(const ServoAttempt& attempt) {
   Json json = {{"outcome", outcomeInWords(attempt)},
                {"released", attempt.loop.released},
+               {"tries", attempt.loop.tries},
                {"duration_s", duration(attempt.loop)}};
   if (attempt.loop.met && attempt.loop.released_at) {
     json["approach_to_release_s"] = *attempt.loop.released_at - *attempt.loop.met;
@@ -89,9 +91,35 @@ void addJudge(const ServoJob& job, const ServoReport& report, Json& json) {
     return;
   }
   json["judged_by"] = "nobody: the loop knows that it let go, not that the ring hangs";
+  json["failure"] = report.failure.empty() ? Json() : Json(report.failure);
   json["cameras"] = camerasJson(report.live->cameras);
   json["frames_passed_over"] = report.live->frames_passed_over;
+  json["frame_interval_ms"] = inUnit(report.live->frame_interval_s, 1e3);
   json["arm"] = linkJson(report.live->arm);
+  json["arm"]["thread_priority"] = nameOf(report.live->link_priority);
+}
+
+/// What the attempts have in common.
+struct AllAttempts {
+  Statistics cycle_time;
+  double peak_contact = 0.0;
+  std::map<std::string, int> aborts;  ///< by reason
+  Json list = Json::array();
+};
+
+AllAttempts sumUp(const std::vector<ServoAttempt>& attempts) {
+  AllAttempts all;
+  for (const ServoAttempt& attempt : attempts) {
+    all.cycle_time.add(duration(attempt.loop));
+    if (attempt.truth) {
+      all.peak_contact = std::max(all.peak_contact, attempt.truth->peak_contact_n);
+    }
+    if (!attempt.loop.released) {
+      ++all.aborts[attempt.loop.abort_reason];
+    }
+    all.list.push_back(attemptJson(attempt));
+  }
+  return all;
 }
 
 }  // namespace
@@ -129,20 +157,7 @@ std::string servoTableRow(int attempt, const ServoAttempt& result) {
 }
 
 std::string servoSummaryJson(const ServoJob& job, const ServoReport& report) {
-  Statistics cycle_time;
-  double peak_contact = 0.0;
-  std::map<std::string, int> aborts;
-  Json attempts = Json::array();
-  for (const ServoAttempt& attempt : report.attempts) {
-    cycle_time.add(duration(attempt.loop));
-    if (attempt.truth) {
-      peak_contact = std::max(peak_contact, attempt.truth->peak_contact_n);
-    }
-    if (!attempt.loop.released) {
-      ++aborts[attempt.loop.abort_reason];
-    }
-    attempts.push_back(attemptJson(attempt));
-  }
+  const AllAttempts all = sumUp(report.attempts);
   const LoopStatistics& loop = report.statistics;
   const bool judged = !report.live;
   Json json = {{"rings_hung", judged ? Json(ringsHung(report)) : Json()},
@@ -153,9 +168,9 @@ std::string servoSummaryJson(const ServoJob& job, const ServoReport& report) {
                {"cell", report.cell},
                {"tracker", job.tracker == TrackerKind::kMarker ? "marker" : "edges"}};
   addJudge(job, report, json);
-  json["cycle_time_s"] = cycle_time.mean();
-  json["peak_contact_n"] = judged ? Json(peak_contact) : Json();
-  json["aborts"] = aborts;
+  json["cycle_time_s"] = all.cycle_time.mean();
+  json["peak_contact_n"] = judged ? Json(all.peak_contact) : Json();
+  json["aborts"] = all.aborts;
   json["tracking_error_mm"] = inUnit(over(report, &AttemptResult::tracking_error_m), kMm);
   json["prediction_error_mm"] = inUnit(loop.prediction_error_m, kMm);
   json["prediction_horizon_s"] = 0.1;
@@ -168,7 +183,7 @@ std::string servoSummaryJson(const ServoJob& job, const ServoReport& report) {
   json["nis_mean"] = loop.nis.mean();
   json["frames_tracked"] = loop.frames - loop.frames_without_fix;
   json["frames_missed"] = loop.frames_without_fix;
-  json["attempts"] = attempts;
+  json["attempts"] = all.list;
   return json.dump(2) + "\n";
 }
 

@@ -127,6 +127,31 @@ TEST(ServoSummary, WhereNobodyJudgesNoRingIsSaidToHang) {
   EXPECT_THAT(servoTableRow(0, report.attempts[0]), HasSubstr("ring released"));
 }
 
+TEST(ServoSummary, ADeviceThatFailedIsNamedBesideWhatWasFinished) {
+  ServoReport report;
+  report.live.emplace();
+  report.live->link_priority = ThreadPriority::kRealTime;
+  report.live->frame_interval_s.add(0.08);
+  report.attempts = {hung()};
+  EXPECT_TRUE(summaryOf(report).at("failure").is_null());
+  report.failure = "The RX60 stopped: no feedback.";
+  const json summary = summaryOf(report);
+  EXPECT_EQ(summary.at("failure"), "The RX60 stopped: no feedback.");
+  EXPECT_EQ(summary.at("rings_released"), 1);
+  EXPECT_EQ(summary.at("arm").at("thread_priority"), "real time");
+  EXPECT_NEAR(summary.at("frame_interval_ms").at("mean"), 80.0, 1e-12);
+}
+
+TEST(ServoSummary, TellsThatAHookNeededAnotherTry) {
+  ServoAttempt attempt = hung();
+  attempt.truth.reset();
+  attempt.loop.tries = 2;
+  EXPECT_THAT(servoTableRow(0, attempt), HasSubstr("ring released, try 2"));
+  ServoReport report;
+  report.attempts = {attempt};
+  EXPECT_EQ(summaryOf(report).at("attempts").at(0).at("tries"), 2);
+}
+
 TEST(ServoSummary, TableCountsHooksFromOneAndSaysWhy) {
   EXPECT_THAT(servoTableRow(0, hung()), HasSubstr("   1  ring hangs"));
   EXPECT_THAT(servoTableRow(2, aborted("hook lost")), HasSubstr("   3  aborted: hook lost"));
