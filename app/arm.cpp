@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "core/error.h"
 #include "robot/rx60/drive_power.h"
 #include "robot/rx60/rx60_arm.h"
@@ -200,65 +201,77 @@ void addAddress(CLI::App& command, ArmArguments& arguments) {
   command.add_option("--io-port", address.io_port, "Default 11003")->type_name("N");
 }
 
-CLI::App* addStep(CLI::App& parent, const std::shared_ptr<ArmArguments>& arguments,
+CLI::App& addStep(CLI::App& parent, const std::shared_ptr<ArmArguments>& arguments,
                   const std::string& name, const std::string& what, const std::string& example,
                   void (*run)(const ArmArguments&)) {
-  CLI::App* step = parent.add_subcommand(name, what);
-  step->footer("Example: ringhook arm " + name + " --address 192.168.0.254" + example);
-  addAddress(*step, *arguments);
-  step->callback([arguments, run] { run(*arguments); });
+  CLI::App& step = addCommand(
+      parent, name, what, "Example: ringhook arm " + name + " --address 192.168.0.254" + example);
+  addAddress(step, *arguments);
+  step.callback([arguments, run] { run(*arguments); });
   return step;
 }
 
-void addMotionOptions(CLI::App& step, ArmArguments& arguments) {
+void addState(CLI::App& step, std::string& state, const std::string& one,
+              const std::string& other) {
+  step.add_option("state", state, one + " or " + other)
+      ->required()
+      ->check(CLI::IsMember({one, other}));
+}
+
+void addSeconds(CLI::App& step, ArmArguments& arguments, const CLI::Validator& permitted) {
+  step.add_option("--seconds", arguments.seconds, "How long; default 5")->check(permitted);
+}
+
+void addWithoutAsking(CLI::App& step, ArmArguments& arguments) {
   step.add_flag("--yes", arguments.yes, "Do not ask before the arm moves");
+}
+
+void addMove(CLI::App& arm, const std::shared_ptr<ArmArguments>& arguments) {
+  CLI::App& step = addStep(arm, arguments, "move", "Moves to joint angles, as a trajectory point",
+                           " --to-deg 0,0,90,0,90,0 --speed 0.05", move);
+  step.add_option("--to-deg", arguments->to_deg, "Six joint angles [deg]")
+      ->required()
+      ->delimiter(',')
+      ->expected(6)
+      ->type_name("J1,...,J6");
+  step.add_option("--speed", arguments->speed, "Share of the nominal joint speeds; default 0.05")
+      ->check(CLI::Range(0.001, 1.0));
+  addWithoutAsking(step, *arguments);
+}
+
+void addJog(CLI::App& arm, const std::shared_ptr<ArmArguments>& arguments) {
+  CLI::App& step = addStep(arm, arguments, "jog", "Turns one joint by velocity commands",
+                           " --joint 6 --speed-deg-s 2 --seconds 3", jog);
+  step.add_option("--joint", arguments->joint, "1 to 6; default 6")->check(CLI::Range(1, 6));
+  step.add_option("--speed-deg-s", arguments->speed_deg_s, "Default 2")
+      ->check(CLI::Range(-20.0, 20.0));
+  addSeconds(step, *arguments, CLI::Range(0.1, 60.0));
+  addWithoutAsking(step, *arguments);
+}
+
+void addGripper(CLI::App& arm, const std::shared_ptr<ArmArguments>& arguments) {
+  CLI::App& step =
+      addStep(arm, arguments, "gripper", "Opens or closes the gripper", " open", gripper);
+  addState(step, arguments->gripper, "open", "close");
+  step.add_option("--module", arguments->gripper_module,
+                  "I/O module of the VAL3 server; default 2");
+  step.add_option("--pin", arguments->gripper_pin, "Output of the module; default 0");
 }
 
 }  // namespace
 
 void addArmCommand(CLI::App& app) {
   auto arguments = std::make_shared<ArmArguments>();
-  CLI::App* command = app.add_subcommand("arm", "Looks at an RX60 and moves it by hand");
-  command->require_subcommand(1);
-  command->footer("Example: ringhook arm watch --address 192.168.0.254");
-
-  CLI::App* step =
-      addStep(*command, arguments, "watch", "Tells state, link health and faults", "", watch);
-  step->add_option("--seconds", arguments->seconds, "How long; default 5")
-      ->check(CLI::PositiveNumber);
-
-  step = addStep(*command, arguments, "power", "Switches the drives on or off", " on", power);
-  step->add_option("state", arguments->power, "on or off")
-      ->required()
-      ->check(CLI::IsMember({"on", "off"}));
-
-  step = addStep(*command, arguments, "move", "Moves to joint angles, as a trajectory point",
-                 " --to-deg 0,0,90,0,90,0 --speed 0.05", move);
-  step->add_option("--to-deg", arguments->to_deg, "Six joint angles [deg]")
-      ->required()
-      ->delimiter(',')
-      ->expected(6)
-      ->type_name("J1,...,J6");
-  step->add_option("--speed", arguments->speed, "Share of the nominal joint speeds; default 0.05")
-      ->check(CLI::Range(0.001, 1.0));
-  addMotionOptions(*step, *arguments);
-
-  step = addStep(*command, arguments, "jog", "Turns one joint by velocity commands",
-                 " --joint 6 --speed-deg-s 2 --seconds 3", jog);
-  step->add_option("--joint", arguments->joint, "1 to 6; default 6")->check(CLI::Range(1, 6));
-  step->add_option("--speed-deg-s", arguments->speed_deg_s, "Default 2")
-      ->check(CLI::Range(-20.0, 20.0));
-  step->add_option("--seconds", arguments->seconds, "How long; default 5")
-      ->check(CLI::Range(0.1, 60.0));
-  addMotionOptions(*step, *arguments);
-
-  step = addStep(*command, arguments, "gripper", "Opens or closes the gripper", " open", gripper);
-  step->add_option("state", arguments->gripper, "open or close")
-      ->required()
-      ->check(CLI::IsMember({"open", "close"}));
-  step->add_option("--module", arguments->gripper_module,
-                   "I/O module of the VAL3 server; default 2");
-  step->add_option("--pin", arguments->gripper_pin, "Output of the module; default 0");
+  CLI::App& arm = addCommand(app, "arm", "Looks at an RX60 and moves it by hand",
+                             "Example: ringhook arm watch --address 192.168.0.254");
+  arm.require_subcommand(1);
+  addSeconds(addStep(arm, arguments, "watch", "Tells state, link health and faults", "", watch),
+             *arguments, CLI::PositiveNumber);
+  addState(addStep(arm, arguments, "power", "Switches the drives on or off", " on", power),
+           arguments->power, "on", "off");
+  addMove(arm, arguments);
+  addJog(arm, arguments);
+  addGripper(arm, arguments);
 }
 
 }  // namespace ringhook

@@ -6,14 +6,13 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/progress.h"
 #include "calib/solve/stereo_calibration.h"
 #include "calib/solve/stereo_images.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "rig/stereo_rig.h"
 
@@ -132,58 +131,53 @@ void printResult(const StereoCalibration& c) {
   std::printf("\nverdict: %s: %s\n", toString(c.verdict.grade).c_str(), c.verdict.sentence.c_str());
 }
 
-// Both files or none: the summary is renamed into place only once the rig is.
 void write(const StereoJob& job, const StereoCalibration& c) {
   StereoRig rig = c.rig;
   rig.date = utcDate();
   rig.tool_version = RINGHOOK_VERSION;
-  std::optional<AtomicFile> json;
-  if (!job.json.empty()) {
-    json.emplace(job.json);
-    json->stream() << summary(c).dump(2) << "\n";
-  }
   saveRig(job.out, rig);
-  if (json) {
-    json->commit();
-  }
+}
+
+void calibrateRig(const StereoJob& job) {
+  JsonFile json(job.json);
+  const StereoCalibration result = run(job);
+  write(job, result);
+  json.commit(summary(result).dump(2) + "\n");
+  printResult(result);
+  std::printf("wrote %s\n", job.out.c_str());
 }
 
 void addStereo(CLI::App& calibrate) {
   auto job = std::make_shared<StereoJob>();
-  CLI::App* stereo = calibrate.add_subcommand(
-      "stereo", "Calibrate both cameras and the pose between them from pictures of a board.");
-  stereo->add_option("--left", job->left, "left images, a quoted pattern; paired by name order")
-      ->required();
-  stereo->add_option("--right", job->right, "right images, a quoted pattern")->required();
-  stereo
-      ->add_option("--board", job->board,
-                   "chessboard:COLUMNSxROWS:SQUARE, inner corners counted, square in mm, cm or m")
-      ->required();
-  stereo->add_option("--distortion", job->distortion, "distortion coefficients per camera")
-      ->check(CLI::IsMember({0, 5, 8}))
-      ->capture_default_str();
-  stereo->add_option("--out", job->out, "rig file to write (rig.yaml)")->required();
-  stereo->add_option("--json", job->json, "write the figures to this file");
-  stereo->footer(
+  CLI::App& stereo = addCommand(
+      calibrate, "stereo",
+      "Calibrate both cameras and the pose between them from pictures of a board.",
       "Example:\n"
       "  ringhook calibrate stereo --left 'shots/left*.png' --right 'shots/right*.png' \\\n"
       "    --board chessboard:9x6:25mm --out rig.yaml --json rig.json\n"
       "What the figures mean: doc/calibration.md");
-  stereo->callback([job] {
-    const StereoCalibration result = run(*job);
-    write(*job, result);
-    printResult(result);
-    std::printf("wrote %s\n", job->out.c_str());
-  });
+  stereo.add_option("--left", job->left, "left images, a quoted pattern; paired by name order")
+      ->required();
+  stereo.add_option("--right", job->right, "right images, a quoted pattern")->required();
+  stereo
+      .add_option("--board", job->board,
+                  "chessboard:COLUMNSxROWS:SQUARE, inner corners counted, square in mm, cm or m")
+      ->required();
+  stereo.add_option("--distortion", job->distortion, "distortion coefficients per camera")
+      ->check(CLI::IsMember({0, 5, 8}))
+      ->capture_default_str();
+  stereo.add_option("--out", job->out, "rig file to write (rig.yaml)")->required();
+  addJsonOption(stereo, job->json, "write the figures to this file");
+  stereo.callback([job] { calibrateRig(*job); });
 }
 
 }  // namespace
 
 void addCalibrateCommand(CLI::App& app) {
-  CLI::App* calibrate = app.add_subcommand("calibrate", "Set up a cell and judge the result.");
-  calibrate->footer("Example: ringhook calibrate stereo --help");
-  calibrate->require_subcommand(1);
-  addStereo(*calibrate);
+  CLI::App& calibrate = addCommand(app, "calibrate", "Set up a cell and judge the result.",
+                                   "Example: ringhook calibrate stereo --help");
+  calibrate.require_subcommand(1);
+  addStereo(calibrate);
 }
 
 }  // namespace ringhook

@@ -5,8 +5,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <string>
 
+#include "app/options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "sim/hook_shape.h"
@@ -25,60 +27,68 @@ struct HookArguments {
 
 void writeHook(const HookArguments& arguments) {
   checkHookShape(arguments.shape);
+  JsonFile summary(arguments.json);
   const fs::path folder = arguments.out;
   writeFileAtomically(folder / "hook.cao", hookCao(arguments.shape));
   writeFileAtomically(folder / "hook.obj", hookObj(arguments.shape));
   writeFileAtomically(folder / "marker.yaml", markerYaml(arguments.shape));
-  if (!arguments.json.empty()) {
-    nlohmann::ordered_json json;
-    json["folder"] = folder.string();
-    json["files"] = {"hook.cao", "hook.obj", "marker.yaml"};
-    writeFileAtomically(arguments.json, json.dump(2) + "\n");
-  }
+  nlohmann::ordered_json json;
+  json["folder"] = folder.string();
+  json["files"] = {"hook.cao", "hook.obj", "marker.yaml"};
+  summary.commit(json.dump(2) + "\n");
   std::printf("written: %s (hook.cao, hook.obj, marker.yaml)\n", folder.string().c_str());
 }
 
-/// A measure in millimetres, kept in metres.
-void addMeasure(CLI::App& command, const std::string& name, double& metres,
-                const std::string& what) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", 1e3 * metres);
+/// A length of the hook, told in millimetres, kept in metres.
+struct Measure {
+  const char* name;
+  double HookShape::*length;
+  const char* what;
+};
+
+constexpr Measure kMeasures[] = {
+    {"bar-width", &HookShape::bar_width, "Of the bar, as the cameras see it"},
+    {"bar-thickness", &HookShape::bar_thickness, "Of the bar, towards the cameras"},
+    {"arc-radius", &HookShape::arc_radius, "Of the J's centreline"},
+    {"shank-length", &HookShape::shank_length, "From the arc's centre to the pivot"},
+    {"tip-rise", &HookShape::tip_rise, "Of the tip above the arc's centre"},
+    {"plate-width", &HookShape::plate_width, "Of the tag plate"},
+    {"plate-height", &HookShape::plate_height, "Of the tag plate"},
+    {"plate-face", &HookShape::plate_face_x, "Its printed face before the bar's middle"},
+    {"plate-centre", &HookShape::plate_centre_z, "Its centre above the arc's centre"},
+    {"tag-size", &HookShape::tag_size, "Side of a tag's black square"},
+    {"tag-distance", &HookShape::tag_distance, "Between the tags' centres"},
+    {"tracked-top", &HookShape::tracked_top, "Where the edge model ends"}};
+
+void addMeasure(CLI::App& command, const Measure& measure, HookShape& shape) {
+  double& metres = shape.*measure.length;
+  std::ostringstream what;
+  what << measure.what << "; default " << 1e3 * metres;
   command
       .add_option_function<double>(
-          "--" + name + "-mm", [&metres](double value) { metres = value / 1e3; },
-          what + "; default " + text)
+          "--" + std::string(measure.name) + "-mm",
+          [&metres](double value) { metres = value / 1e3; }, what.str())
       ->type_name("MM");
 }
 
 void addHookCommand(CLI::App& model) {
   auto arguments = std::make_shared<HookArguments>();
-  CLI::App* command = model.add_subcommand(
-      "hook", "Writes the models of a J-shaped hook: edges, solid and tag plate from one source");
-  command->footer(
-      "Example: ringhook model hook --arc-radius-mm 40 --out models/wide-hook\n"
-      "Then name hook.cao and marker.yaml in the cell file (doc/models.md).");
+  CLI::App& command =
+      addCommand(model, "hook",
+                 "Writes the models of a J-shaped hook: edges, solid and tag plate from one source",
+                 "Example: ringhook model hook --arc-radius-mm 40 --out models/wide-hook\n"
+                 "Then name hook.cao and marker.yaml in the cell file (doc/models.md).");
   HookShape& shape = arguments->shape;
-  addMeasure(*command, "bar-width", shape.bar_width, "Of the bar, as the cameras see it");
-  addMeasure(*command, "bar-thickness", shape.bar_thickness, "Of the bar, towards the cameras");
-  addMeasure(*command, "arc-radius", shape.arc_radius, "Of the J's centreline");
-  addMeasure(*command, "shank-length", shape.shank_length, "From the arc's centre to the pivot");
-  addMeasure(*command, "tip-rise", shape.tip_rise, "Of the tip above the arc's centre");
-  addMeasure(*command, "plate-width", shape.plate_width, "Of the tag plate");
-  addMeasure(*command, "plate-height", shape.plate_height, "Of the tag plate");
-  addMeasure(*command, "plate-face", shape.plate_face_x,
-             "Its printed face before the bar's middle");
-  addMeasure(*command, "plate-centre", shape.plate_centre_z, "Its centre above the arc's centre");
-  addMeasure(*command, "tag-size", shape.tag_size, "Side of a tag's black square");
-  addMeasure(*command, "tag-distance", shape.tag_distance, "Between the tags' centres");
-  addMeasure(*command, "tracked-top", shape.tracked_top, "Where the edge model ends");
-  command->add_option("--arc-chords", shape.arc_chords, "Chords for each side of the arc")
+  for (const Measure& measure : kMeasures) {
+    addMeasure(command, measure, shape);
+  }
+  command.add_option("--arc-chords", shape.arc_chords, "Chords for each side of the arc")
       ->capture_default_str();
-  command->add_option("--out", arguments->out, "Folder for the three files")
+  command.add_option("--out", arguments->out, "Folder for the three files")
       ->required()
       ->type_name("DIR");
-  command->add_option("--json", arguments->json, "Also write what was made here")
-      ->type_name("FILE");
-  command->callback([arguments] { writeHook(*arguments); });
+  addJsonOption(command, arguments->json, "Also write what was made here");
+  command.callback([arguments] { writeHook(*arguments); });
 }
 
 struct ConvertArguments {
@@ -138,6 +148,7 @@ void convert(const ConvertArguments& arguments) {
   if (fs::path(arguments.out).extension() != ".cao") {
     throw InputError("--out " + arguments.out + ": expected a name that ends in .cao");
   }
+  JsonFile json(arguments.json);
   MeshModelOptions options;
   options.scale = arguments.scale;
   options.feature_angle = arguments.feature_angle_deg * std::numbers::pi / 180.0;
@@ -145,53 +156,51 @@ void convert(const ConvertArguments& arguments) {
   options.weld_m = arguments.weld_mm / 1e3;
   const MeshModel model = modelFromMesh(loadObj(arguments.file), options, arguments.file);
   writeFileAtomically(arguments.out, caoText(model, fs::path(arguments.file).filename().string()));
-  if (!arguments.json.empty()) {
-    writeFileAtomically(arguments.json, convertJson(arguments, model));
-  }
+  json.commit(convertJson(arguments, model));
   printModel(arguments, model);
 }
 
 void addConvertCommand(CLI::App& model) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = model.add_subcommand(
-      "convert", "Turns a CAD mesh (Wavefront OBJ) into an edge model for ViSP (.cao)");
-  command->footer(
+  CLI::App& command = addCommand(
+      model, "convert", "Turns a CAD mesh (Wavefront OBJ) into an edge model for ViSP (.cao)",
       "Example: ringhook model convert hook.obj --scale 0.001 --out hook.cao\n"
       "Then: ringhook evaluate sequence DIR --target hook.cao --start POSE (doc/models.md)");
-  command->add_option("FILE", arguments->file, "Wavefront OBJ, text")->required();
-  command->add_option("--out", arguments->out, "Edge model to write")
+  command.add_option("FILE", arguments->file, "Wavefront OBJ, text")->required();
+  command.add_option("--out", arguments->out, "Edge model to write")
       ->required()
       ->type_name("FILE.cao");
   command
-      ->add_option("--scale", arguments->scale,
-                   "Metres in one unit of the file: 0.001 for millimetres, 0.0254 for inches")
+      .add_option("--scale", arguments->scale,
+                  "Metres in one unit of the file: 0.001 for millimetres, 0.0254 for inches")
       ->check(CLI::Range(1e-9, 1e6))
       ->capture_default_str();
   command
-      ->add_option("--feature-angle-deg", arguments->feature_angle_deg,
-                   "Faces that meet at this angle or more make an edge")
+      .add_option("--feature-angle-deg", arguments->feature_angle_deg,
+                  "Faces that meet at this angle or more make an edge")
       ->check(CLI::Range(1.0, 180.0))
       ->capture_default_str();
   command
-      ->add_option("--chord-tolerance-mm", arguments->chord_tolerance_mm,
-                   "Of the straight lines from the curved edges that they stand for")
+      .add_option("--chord-tolerance-mm", arguments->chord_tolerance_mm,
+                  "Of the straight lines from the curved edges that they stand for")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  command->add_option("--weld-mm", arguments->weld_mm, "Points nearer than this are one point")
+  command.add_option("--weld-mm", arguments->weld_mm, "Points nearer than this are one point")
       ->check(CLI::Range(1e-6, 10.0))
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Also write the counts here")->type_name("FILE");
-  command->callback([arguments] { convert(*arguments); });
+  addJsonOption(command, arguments->json, "Also write the counts here");
+  command.callback([arguments] { convert(*arguments); });
 }
 
 }  // namespace
 
 void addModelCommand(CLI::App& app) {
-  CLI::App* model = app.add_subcommand("model", "Makes the models that the trackers use");
-  model->footer("Example: ringhook model convert part.obj --scale 0.001 --out part.cao");
-  model->require_subcommand(1);
-  addHookCommand(*model);
-  addConvertCommand(*model);
+  CLI::App& model =
+      addCommand(app, "model", "Makes the models that the trackers use",
+                 "Example: ringhook model convert part.obj --scale 0.001 --out part.cao");
+  model.require_subcommand(1);
+  addHookCommand(model);
+  addConvertCommand(model);
 }
 
 }  // namespace ringhook

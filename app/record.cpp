@@ -1,15 +1,15 @@
 #include "app/record.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/progress.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "evaluation/record_run.h"
 
@@ -84,6 +84,19 @@ void printEnd(const RecordJob& job, const RecordReport& report) {
   std::fflush(stdout);
 }
 
+/// The summary would be in the way of the sequence, and of the next one in its place.
+void refuseWithin(const std::string& out, const std::string& json) {
+  namespace fs = std::filesystem;
+  if (json.empty() || out.empty()) {
+    return;
+  }
+  const fs::path below = fs::absolute(json).lexically_normal().lexically_relative(
+      fs::absolute(out).lexically_normal());
+  if (*below.begin() != "..") {
+    throw InputError("--json " + json + ": expected a place outside of the sequence folder " + out);
+  }
+}
+
 void runCommand(const RecordArguments& arguments) {
   if (arguments.left_window.empty() != arguments.right_window.empty()) {
     throw InputError("record: expected --left-window and --right-window together");
@@ -91,25 +104,21 @@ void runCommand(const RecordArguments& arguments) {
   if (!arguments.follow.empty() && !arguments.left_window.empty()) {
     throw InputError("record: expected either --follow or windows, since the former chooses them");
   }
+  refuseWithin(arguments.out, arguments.json);
   const RecordJob job = jobFrom(arguments);
-  // Opened first: a place that cannot be written is found out before the work, not after it.
-  std::optional<AtomicFile> json;
-  if (!arguments.json.empty()) {
-    json.emplace(arguments.json);
-  }
+  JsonFile json(arguments.json);
   Progress progress("recording");
   const RecordReport report =
       runRecord(job, interruptRequested(),
                 [&](double fraction, const std::string& note) { progress.show(fraction, note); });
   progress.clear();
-  if (json) {
-    json->stream() << reportJson(job, report);
-    json->commit();
-  }
+  json.commit(reportJson(job, report));
   printEnd(job, report);
   if (report.interrupted) {
-    throw Interrupted("stopped by the operator: " + std::to_string(report.frames) +
-                      " frames kept in " + job.out.string());
+    throw Interrupted("stopped by the operator: " +
+                      (report.frames > 0
+                           ? std::to_string(report.frames) + " frames kept in " + job.out.string()
+                           : "no frame was stored"));
   }
 }
 
@@ -164,23 +173,23 @@ void addWhereTo(CLI::App& command, RecordArguments& arguments) {
       ->type_name("TEXT");
   command.add_option("--notes", arguments.job.notes, "For sequence.yaml")->type_name("TEXT");
   command.add_option("--licence", arguments.job.licence, "For sequence.yaml")->type_name("TEXT");
-  command.add_option("--json", arguments.json, "Also write the counts here")->type_name("FILE");
+  addJsonOption(command, arguments.json, "Also write the counts here");
 }
 
 }  // namespace
 
 void addRecordCommand(CLI::App& app) {
   auto arguments = std::make_shared<RecordArguments>();
-  CLI::App* command = app.add_subcommand("record", "Stores a sequence from any cell");
-  command->footer(
+  CLI::App& command = addCommand(
+      app, "record", "Stores a sequence from any cell",
       "Examples:\n"
       "  ringhook record --follow marker --seconds 5 --seed 1 --out out/swing\n"
       "  ringhook record --left-window 700,600,512,512 --right-window 700,600,512,512 \\\n"
       "                  --frames 100 --out out/fixed\n"
       "Ctrl-C ends it and keeps the frames that are whole; so does a full disk.");
-  addWhatToRecord(*command, *arguments);
-  addWhereTo(*command, *arguments);
-  command->callback([arguments] { runCommand(*arguments); });
+  addWhatToRecord(command, *arguments);
+  addWhereTo(command, *arguments);
+  command.callback([arguments] { runCommand(*arguments); });
 }
 
 }  // namespace ringhook

@@ -20,7 +20,6 @@ constexpr std::size_t kFramesWaiting = 32;
 constexpr double kTruthPeriod = 0.02;      // of the truth log [s]
 constexpr double kPngShare = 0.75;         // of a noisy image's bytes that PNG needs
 constexpr double kBytesPerSecond = 200e3;  // of tables and truth
-constexpr double kCameraPatience = 0.5;    // without an arm to wait for [s]
 
 /// The cell as the job wants it.
 CellConfig cellFor(const RecordJob& job) {
@@ -54,16 +53,13 @@ class Recording {
     aim();
     requireFreeSpace(job_.out, expectedBytes());
     while (!enough() && !stop.load() && !devices_.camera->finished()) {
-      std::optional<ArmState> state;
-      if (devices_.arm) {
-        state = devices_.arm->waitState();
-        note(state->time);
-      }
+      const ArmState state = devices_.arm->waitState();
+      note(state.time);
       takeFrames();
-      if (state && recorder_ && (!last_state_ || state->time > *last_state_)) {
-        recorder_->addRobot(state->time, state->position,
-                            rx60::forward(rx60::rx60(), state->position));
-        last_state_ = state->time;
+      if (recorder_ && (!last_state_ || state.time > *last_state_)) {
+        recorder_->addRobot(state.time, state.position,
+                            rx60::forward(rx60::rx60(), state.position));
+        last_state_ = state.time;
       }
     }
     report_.interrupted = !enough() && stop.load();
@@ -138,7 +134,7 @@ class Recording {
   void takeFrames() {
     StereoCamera& camera = *devices_.camera;
     while (!enough()) {
-      std::optional<StereoFrame> frame = camera.grab(devices_.arm ? 0.0 : kCameraPatience);
+      std::optional<StereoFrame> frame = camera.grab(0.0);
       if (!frame) {
         return;
       }

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../unit/app/program.h"
 #include "../unit/camera/scratch_folder.h"
@@ -66,6 +67,20 @@ TEST(RecordProgram, CtrlCKeepsTheFramesAndExitsWithOne) {
                                     " frames kept in clip"));
   std::ifstream file(folder.path() / "c.json");
   EXPECT_EQ(nlohmann::json::parse(file).at("interrupted"), true);
+}
+
+TEST(RecordProgram, CtrlCBeforeTheFirstFrameNamesNoFolder) {
+  const ScratchFolder folder;
+  Program program(folder.path(),
+                  {"record", "--follow", "marker", "--out", "clip", "--json", "c.json"});
+  while (!fs::exists(folder.path() / ".c.partial.json")) {  // from then on it hears the signal
+    std::this_thread::yield();
+  }
+  program.signal(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("stopped by the operator: no frame was stored"));
+  EXPECT_FALSE(fs::exists(folder.path() / "clip"));
 }
 
 TEST(RecordProgram, KilledHalfwayItLeavesASequence) {
@@ -135,6 +150,7 @@ TEST(RecordProgram, WrongUseIsNamed) {
   folder.write("empty.yaml", "");
   refused({"--out", "x", "--cell", "empty.yaml"}, "empty.yaml");
   refused({"--out", "x", "--scenario", "nowhere"}, "nowhere");
+  refused({"--out", "x", "--json", "./x/counts.json"}, "outside of the sequence folder x");
 }
 
 }  // namespace

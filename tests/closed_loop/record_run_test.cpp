@@ -4,9 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "../unit/camera/scratch_folder.h"
 #include "camera/csv_table.h"
 #include "camera/replay_camera.h"
@@ -33,11 +30,6 @@ RecordJob smallJob(const fs::path& out) {
 RecordReport record(const RecordJob& job) {
   const std::atomic<bool> stop{false};
   return runRecord(job, stop, [](double, const std::string&) {});
-}
-
-std::string textOf(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 TEST(RecordRun, TheSameSeedGivesTheSameBytes) {

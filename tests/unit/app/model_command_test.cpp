@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "../camera/scratch_folder.h"
@@ -12,19 +11,13 @@
 namespace ringhook {
 namespace {
 
-namespace fs = std::filesystem;
 using test::ProgramResult;
 using test::runProgram;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string textOf(const fs::path& file) {
-  std::ifstream stream(file);
-  EXPECT_TRUE(stream) << file;
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-const fs::path kHook = fs::path(RINGHOOK_SOURCE_DIR) / "datasets/models/hook";
+const std::filesystem::path kHook =
+    std::filesystem::path(RINGHOOK_SOURCE_DIR) / "datasets/models/hook";
 
 TEST(ModelHook, ItsDefaultsAreTheStoredModelsBitByBit) {
   const ScratchFolder folder;
@@ -49,7 +42,7 @@ TEST(ModelHook, RefusesWhatIsNoHookAndWritesNothing) {
       runProgram(folder.path(), {"model", "hook", "--arc-radius-mm", "5", "--out", "hook"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("arc radius"));
-  EXPECT_FALSE(fs::exists(folder.path() / "hook"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "hook"));
 }
 
 TEST(ModelConvert, AMeshInMillimetresBecomesAModelWithItsCounts) {
@@ -78,7 +71,7 @@ void expectRefused(const ScratchFolder& folder, const std::vector<std::string>& 
   const ProgramResult result = runProgram(folder.path(), arguments);
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_THAT(result.err, HasSubstr(words));
-  EXPECT_FALSE(fs::exists(folder.path() / "part.cao"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "part.cao"));
 }
 
 TEST(ModelConvert, BadInputIsNamedAndNothingWritten) {
