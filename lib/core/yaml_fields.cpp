@@ -57,8 +57,8 @@ YAML::Node load(const std::filesystem::path& file) {
 }  // namespace
 
 struct YamlFields::State {
-  State(std::filesystem::path file_in, std::string name_in, YAML::Node node_in)
-      : file(std::move(file_in)), name(std::move(name_in)), node(std::move(node_in)) {
+  State(std::filesystem::path file_in, std::string name_in, const YAML::Node& node_in)
+      : file(std::move(file_in)), name(std::move(name_in)), node(node_in) {
     std::set<std::string> seen;
     for (const auto& entry : node) {
       if (!seen.insert(entry.first.Scalar()).second) {
@@ -135,7 +135,7 @@ std::vector<YamlFields> YamlFields::list(const std::string& key) {
   return entries;
 }
 
-bool YamlFields::has(const std::string& key) const { return static_cast<bool>(state_->find(key)); }
+bool YamlFields::has(const std::string& key) const { return state_->ask(key); }
 
 bool YamlFields::isMapping(const std::string& key) const {
   return has(key) && state_->find(key).IsMap();
@@ -259,11 +259,12 @@ void YamlFields::refuseUnknown() const {
   for (const std::string& key : state_->asked) {
     known += (known.empty() ? "" : ", ") + key;
   }
-  for (const auto& entry : state_->node) {
-    const std::string key = entry.first.Scalar();
-    if (!state_->asked.contains(key)) {
-      state_->fail(entry.first, "unknown field " + state_->name + key + "; expected " + known);
-    }
+  const auto unknown = std::find_if(state_->node.begin(), state_->node.end(), [&](const auto& e) {
+    return !state_->asked.contains(e.first.Scalar());
+  });
+  if (unknown != state_->node.end()) {
+    const YAML::Node key = unknown->first;
+    state_->fail(key, "unknown field " + state_->name + key.Scalar() + "; expected " + known);
   }
 }
 

@@ -85,11 +85,15 @@ void readMachines(YamlFields& fields, CellOptions& cell) {
   }
 }
 
+/// One word for each value of the enumeration, in its order.
+template <class Kind>
+void updateKind(YamlFields& fields, const std::string& key, Kind& kind,
+                const std::vector<std::string>& words) {
+  kind = fields.has(key) ? static_cast<Kind>(fields.choice(key, words)) : kind;
+}
+
 void readLight(YamlFields fields, LightOptions& light) {
-  if (fields.has("setup")) {
-    light.setup =
-        fields.choice("setup", {"hall", "side"}) == 0 ? LightSetup::hall : LightSetup::side;
-  }
+  updateKind(fields, "setup", light.setup, {"hall", "side"});
   fields.update("brightness", light.brightness, 0.0, 10.0);
   fields.update("brightness_spread", light.brightness_spread, 0.0, 0.9);
   fields.update("direction_spread_deg", light.direction_spread, 0.0, 45.0, kDegree);
@@ -99,10 +103,7 @@ void readLight(YamlFields fields, LightOptions& light) {
 }
 
 void readBackground(YamlFields fields, SceneOptions& scene) {
-  if (fields.has("wall")) {
-    scene.wall =
-        fields.choice("wall", {"plain", "textured"}) == 0 ? WallKind::plain : WallKind::textured;
-  }
+  updateKind(fields, "wall", scene.wall, {"plain", "textured"});
   fields.update("clutter", scene.clutter, 0, 60);
   fields.update("specular", scene.specular, 0.0, 5.0);
   int seed = static_cast<int>(scene.seed);

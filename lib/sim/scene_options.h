@@ -3,7 +3,7 @@
 /// \file
 /// How the simulated cell looks: lamps, background, clutter, what passes in front of the cameras,
 /// and a calibration board. Plain values with the default cell's figures; every seed makes the
-/// actual scene differ a little (cell_visuals.h, scene_lamps.h). Nothing here touches the physics.
+/// actual scene differ a little (cell_visuals.h, scene_light.h). Nothing here touches the physics.
 
 #include <cstdint>
 
