@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "quiet_cell.h"
 #include "sim/cell_draw.h"
 #include "sim/cell_world.h"
 #include "sim/truth.h"
@@ -118,15 +119,8 @@ TEST(BeltProfile, DrawnStopsKeepTheirOrderAndTheSeedDecides) {
 
 /// One hook at rest on a belt with this profile, no losses.
 CellOptions hangingStill(const BeltProfile& profile) {
-  CellOptions options;
-  options.air_density = options.air_viscosity = 0.0;
-  options.hook.count = 1;
-  options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
-  options.hook.pivot_friction = options.hook.pivot_damping = 0.0;
-  options.hook.length_spread = 0.0;
-  options.belt.start_y = options.belt.entry_y = 0.0;
+  CellOptions options = quietCell();
   options.belt.profile = profile;
-  options.ring.count = 1;
   return options;
 }
 

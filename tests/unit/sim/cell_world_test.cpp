@@ -8,25 +8,12 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "quiet_cell.h"
 #include "scripted_arm.h"
 #include "sim/truth.h"
 
 namespace ringhook {
 namespace {
-
-/// One hook, standing belt, no losses, no randomness, swinging in one plane.
-CellOptions quietCell() {
-  CellOptions options;
-  options.air_density = options.air_viscosity = 0.0;
-  options.hook.count = 1;
-  options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
-  options.hook.pivot_friction = options.hook.pivot_damping = 0.0;
-  options.hook.length_spread = 0.0;
-  options.belt.speed = options.belt.start_y = options.belt.entry_y = 0.0;
-  options.arm.zero_error_sigma = 0.0;
-  options.ring.count = 1;
-  return options;
-}
 
 /// The hook of doc/frames.md once more, by hand: mass, centre of mass and the moment of inertia
 /// about x through the pivot, from rods (shank, tip), the closed-form half circle and two plates.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "quiet_cell.h"
 #include "sim/cell_world.h"
 #include "sim/truth.h"
 
@@ -17,14 +18,10 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// One hook on a standing belt that swings in one plane and is braked by the air alone.
 CellOptions inAir(int axis, double swing) {
-  CellOptions options;
-  options.hook.count = 1;
-  options.hook.swing_about_x = axis == 0 ? swing : 0.0;
-  options.hook.swing_about_y = axis == 1 ? swing : 0.0;
-  options.hook.pivot_friction = options.hook.pivot_damping = 0.0;
-  options.hook.length_spread = 0.0;
-  options.belt.speed = options.belt.start_y = options.belt.entry_y = 0.0;
-  options.ring.count = 1;
+  CellOptions options = quietCell();
+  options.air_density = CellOptions{}.air_density;
+  options.air_viscosity = CellOptions{}.air_viscosity;
+  (axis == 0 ? options.hook.swing_about_x : options.hook.swing_about_y) = swing;
   return options;
 }
 
