@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,20 @@ inline std::vector<std::string_view> filesIn(std::string_view text) {
   }
   files.push_back(text);
   return files;
+}
+
+/// Writes the files of one input under these names, one after the other; names that it has no file
+/// for are not there.
+inline void writeFiles(const ScratchFolder& folder, std::span<const char* const> names,
+                       std::string_view input) {
+  const auto files = filesIn(input);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i < files.size()) {
+      folder.write(names[i], files[i]);
+    } else {
+      folder.remove(names[i]);
+    }
+  }
 }
 
 /// Runs `read`; whatever but an InputError with words comes out of it ends the program.

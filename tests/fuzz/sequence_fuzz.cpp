@@ -15,14 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const char* there : {"own/rig.yaml", "own/left.png", "own/right.png"}) {
     folder.write(there, "");
   }
-  const auto files = fuzz::filesIn(fuzz::textOf(data, size));
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (i < files.size()) {
-      folder.write(kNames.at(i), files[i]);
-    } else {
-      folder.remove(kNames.at(i));
-    }
-  }
+  fuzz::writeFiles(folder, kNames, fuzz::textOf(data, size));
   return fuzz::understoodOrRefused([&folder] {
     const Sequence sequence = openSequence(folder.path() / "own");
     fuzz::require(!sequence.frames.empty(), "a sequence has frames");
