@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "image_reader.h"
 #include "scene_view.h"
 #include "sim/nominal_rig.h"
 #include "sim/sim_stereo_camera.h"
@@ -21,17 +22,6 @@ using Eigen::Vector3d;
 
 constexpr double kSquare = 0.025;
 
-double grey(const GrayImage& image, const Vector2d& at) {
-  const auto x = static_cast<int>(at.x());
-  const auto y = static_cast<int>(at.y());
-  const double s = at.x() - x;
-  const double t = at.y() - y;
-  const std::uint8_t* upper = image.row(y) + x;
-  const std::uint8_t* lower = image.row(y + 1) + x;
-  return (1.0 - t) * ((1.0 - s) * upper[0] + s * upper[1]) +
-         t * ((1.0 - s) * lower[0] + s * lower[1]);
-}
-
 /// The saddle point of a x^2 + b x y + c y^2 + d x + e y + f around `at`, from there.
 Vector2d saddleNear(const GrayImage& image, const Vector2d& at) {
   using Row = Eigen::Matrix<double, 6, 1>;
@@ -43,7 +33,7 @@ Vector2d saddleNear(const GrayImage& image, const Vector2d& at) {
       row << x * x, x * y, y * y, x, y, 1.0;
       const double weight = std::exp(-0.5 * (x * x + y * y) / 4.0);
       normal += weight * row * row.transpose();
-      right += weight * grey(image, at + Vector2d(x, y)) * row;
+      right += weight * greyAt(image, at + Vector2d(x, y)) * row;
     }
   }
   const Row q = normal.ldlt().solve(right);

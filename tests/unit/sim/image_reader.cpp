@@ -4,21 +4,6 @@
 #include <apriltag/tag36h11.h>
 
 namespace ringhook {
-namespace {
-
-double bilinear(const GrayImage& image, const Eigen::Vector2d& at) {
-  const int x = static_cast<int>(at.x());
-  const int y = static_cast<int>(at.y());
-  const double s = at.x() - x;
-  const double t = at.y() - y;
-  const std::uint8_t* upper = image.row(y) + x;
-  const std::uint8_t* lower = image.row(y + 1) + x;
-  return (1.0 - t) * ((1.0 - s) * upper[0] + s * upper[1]) +
-         t * ((1.0 - s) * lower[0] + s * lower[1]);
-}
-
-}  // namespace
-
 std::map<int, std::vector<Eigen::Vector2d>> readTags(GrayImage image) {
   apriltag_family_t* family = tag36h11_create();
   apriltag_detector_t* detector = apriltag_detector_create();
@@ -41,16 +26,27 @@ std::map<int, std::vector<Eigen::Vector2d>> readTags(GrayImage image) {
   return tags;
 }
 
+double greyAt(const GrayImage& image, const Eigen::Vector2d& at) {
+  const auto x = static_cast<int>(at.x());
+  const auto y = static_cast<int>(at.y());
+  const double s = at.x() - x;
+  const double t = at.y() - y;
+  const std::uint8_t* upper = image.row(y) + x;
+  const std::uint8_t* lower = image.row(y + 1) + x;
+  return (1.0 - t) * ((1.0 - s) * upper[0] + s * upper[1]) +
+         t * ((1.0 - s) * lower[0] + s * lower[1]);
+}
+
 double edgeOffset(const GrayImage& image, const Eigen::Vector2d& at,
                   const Eigen::Vector2d& normal) {
   constexpr double kReach = 4.0;
   constexpr int kSteps = 160;
-  const double inner = bilinear(image, at - kReach * normal);
-  const double outer = bilinear(image, at + kReach * normal);
+  const double inner = greyAt(image, at - kReach * normal);
+  const double outer = greyAt(image, at + kReach * normal);
   double area = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const double t = kReach * (2.0 * (i + 0.5) / kSteps - 1.0);
-    area += (bilinear(image, at + t * normal) - outer) / (inner - outer) * 2.0 * kReach / kSteps;
+    area += (greyAt(image, at + t * normal) - outer) / (inner - outer) * 2.0 * kReach / kSteps;
   }
   return area - kReach;
 }

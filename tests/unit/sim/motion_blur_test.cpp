@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "image_reader.h"
 #include "scene_view.h"
 #include "sim/nominal_rig.h"
 #include "sim/sim_stereo_camera.h"
@@ -25,21 +26,15 @@ struct Ramp {
   double motion = 0.0;    ///< of the edge across itself during the exposure, by the truth [px]
 };
 
-double grey(const StereoFrame& frame, const Vector2d& at) {
-  const Vector2d p = at - Vector2d(frame.left_window.x, frame.left_window.y);
-  const auto x = static_cast<int>(p.x());
-  const auto y = static_cast<int>(p.y());
-  const double s = p.x() - x;
-  const double t = p.y() - y;
-  const std::uint8_t* upper = frame.left.row(y) + x;
-  const std::uint8_t* lower = frame.left.row(y + 1) + x;
-  return (1.0 - t) * ((1.0 - s) * upper[0] + s * upper[1]) +
-         t * ((1.0 - s) * lower[0] + s * lower[1]);
-}
+/// A hook that the belt carries, in a frame with some exposure.
+struct MovingHook {
+  StereoRig rig = nominalRig();
+  HookTruth hook;  ///< at mid-exposure
+  StereoFrame frame;
+};
 
-/// The left side of the hook's upper tag, in a frame with that exposure.
-Ramp rampOf(double exposure_s) {
-  const StereoRig rig = nominalRig();
+MovingHook movingHook(double exposure_s) {
+  MovingHook seen;
   CellOptions options = hookInView(-0.1);
   options.belt.speed = 0.30;
   options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
@@ -50,31 +45,37 @@ Ramp rampOf(double exposure_s) {
   camera_options.sensor.exposure_s = exposure_s;
   camera_options.sensor.gain = std::max(1.0, 0.0005 / exposure_s);
   camera_options.sensor.noise = false;
-  SimStereoCamera camera(world, rig, camera_options);
+  SimStereoCamera camera(world, seen.rig, camera_options);
   camera.setWindows({0, 0, 2, 2}, {0, 0, 2, 2});
   world.advanceTo(Time::fromSeconds(0.49));
   camera.setWindows({500, 500, 700, 700}, {0, 0, 2, 2});
   world.advanceTo(Time::fromSeconds(0.5));
-  const HookTruth hook = truth(world).hooks.front();
-  const StereoFrame frame = frameAt(world, camera, 0.51);
-  const Pose c1Mo = rig.fMc1->inverse() * hook.fMo;
-  const auto corners = tagCorners(0);
-  const Vector2d upper = projected(rig.left, c1Mo, corners[0]);
-  const Vector2d lower = projected(rig.left, c1Mo, corners[3]);
-  const Vector2d along = (lower - upper).normalized();
-  const Vector2d outwards(-along.y(), along.x());  // to the left of the way down is outside
+  seen.hook = truth(world).hooks.front();
+  seen.frame = frameAt(world, camera, 0.51);
+  return seen;
+}
 
-  constexpr double kStep = 0.1;
-  constexpr int kReach = 55;  // steps to each side
+constexpr double kStep = 0.1;  // of a profile [px]
+constexpr int kReach = 55;     // steps to each side
+
+/// Grey values across the line from `upper` to `lower`, points of o, added up along it.
+std::vector<double> profileAcross(const MovingHook& seen, const Vector3d& upper,
+                                  const Vector3d& lower, const Vector2d& outwards) {
+  const Pose c1Mo = seen.rig.fMc1->inverse() * seen.hook.fMo;
+  const Vector2d corner(seen.frame.left_window.x, seen.frame.left_window.y);
   std::vector<double> profile(2 * kReach + 1, 0.0);
-  int lines = 0;
-  for (double s = 0.15; s < 0.85; s += 0.004, ++lines) {
-    const Vector2d at = projected(rig.left, c1Mo, corners[0] + s * (corners[3] - corners[0]));
+  for (double s = 0.15; s < 0.85; s += 0.004) {
+    const Vector2d at = projected(seen.rig.left, c1Mo, upper + s * (lower - upper)) - corner;
     for (int i = -kReach; i <= kReach; ++i) {
-      profile[static_cast<std::size_t>(i + kReach)] += grey(frame, at + kStep * i * outwards);
+      profile[static_cast<std::size_t>(i + kReach)] +=
+          greyAt(seen.frame.left, at + kStep * i * outwards);
     }
   }
-  Ramp ramp;
+  return profile;
+}
+
+/// Mean and variance of a profile's derivative.
+Ramp momentsOf(const std::vector<double>& profile) {
   double weight = 0.0;
   double first = 0.0;
   double second = 0.0;
@@ -85,14 +86,28 @@ Ramp rampOf(double exposure_s) {
     first += rise * t;
     second += rise * t * t;
   }
+  Ramp ramp;
   ramp.centre = first / weight;
   ramp.variance = second / weight - ramp.centre * ramp.centre;
-  Pose moved = hook.fMo;
-  moved.translation() += exposure_s * hook.twist_f.head<3>();
+  return ramp;
+}
+
+/// The left side of the hook's upper tag, in a frame with that exposure.
+Ramp rampOf(double exposure_s) {
+  const MovingHook seen = movingHook(exposure_s);
+  const Pose c1Mf = seen.rig.fMc1->inverse();
+  const auto corners = tagCorners(0);
+  const auto pixelOf = [&](const Pose& fMo, const Vector3d& point_o) {
+    return projected(seen.rig.left, c1Mf * fMo, point_o);
+  };
+  const Vector2d along =
+      (pixelOf(seen.hook.fMo, corners[3]) - pixelOf(seen.hook.fMo, corners[0])).normalized();
+  const Vector2d outwards(-along.y(), along.x());  // to the left of the way down is outside
+  Ramp ramp = momentsOf(profileAcross(seen, corners[0], corners[3], outwards));
+  Pose moved = seen.hook.fMo;
+  moved.translation() += exposure_s * seen.hook.twist_f.head<3>();
   const Vector3d middle = 0.5 * (corners[0] + corners[3]);
-  const Vector2d way =
-      projected(rig.left, rig.fMc1->inverse() * moved, middle) - projected(rig.left, c1Mo, middle);
-  ramp.motion = way.dot(outwards);
+  ramp.motion = (pixelOf(moved, middle) - pixelOf(seen.hook.fMo, middle)).dot(outwards);
   return ramp;
 }
 
