@@ -15,7 +15,7 @@ namespace ringhook {
 /// One pair of images as read out. A sequence of one camera leaves `right` empty.
 struct StereoFrame {
   Time time;                ///< mid-exposure of the pair
-  std::uint64_t index = 0;  ///< frame number of the source, counted from 0
+  std::uint64_t index = 0;  ///< frame number of the source; lost frames leave a gap
   GrayImage left;           ///< pixels of left_window
   GrayImage right;          ///< pixels of right_window; empty for a mono source
   Window left_window;       ///< place of `left` in the full (distorted) image [px]

@@ -75,11 +75,12 @@ TEST_P(StereoCameraContract, FramesComeInOrderOfTimeAndAreNumbered) {
   ASSERT_GE(frames.size(), 2U);
   for (std::size_t i = 1; i < frames.size(); ++i) {
     EXPECT_GT(frames[i].time, frames[i - 1].time);
-    EXPECT_EQ(frames[i].index, frames[i - 1].index + 1);
+    EXPECT_GT(frames[i].index, frames[i - 1].index);
+    EXPECT_TRUE(frames[i].index == frames[i - 1].index + 1 || held().realTime());
     const double periods = periodsBetween(frames[i - 1], frames[i], held().rateHz());
     EXPECT_TRUE(periods == 1.0 || held().realTime());
   }
-  EXPECT_EQ(frames.front().index, 0U);
+  EXPECT_TRUE(frames.front().index == 0U || held().realTime());
 }
 
 TEST_P(StereoCameraContract, ImagesAreThePixelsOfTheirWindows) {
