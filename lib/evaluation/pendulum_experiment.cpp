@@ -107,9 +107,8 @@ PendulumCase pointMass(double damping, std::vector<Samples>& traces) {
   }
   one.rows.push_back(mapRow(options, map, reference));
   addSimulated(one, options, reference);
-  PendulumOptions cell = options;
   traces = {thinned(reference, kReportStep, kTraced),
-            thinned(simulatePendulum(cell, kTraced), kReportStep, kTraced),
+            thinned(simulatePendulum(options, kTraced), kReportStep, kTraced),
             thinned(map, kReportStep, kTraced)};
   return one;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "../camera/scratch_folder.h"
 #include "core/error.h"
 #include "rig/stereo_rig.h"
 #include "sim/cell_world.h"
@@ -23,13 +24,6 @@ fs::path emptyFolder(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / ("ringhook_truth_" + name);
   fs::remove_all(folder);
   return folder;
-}
-
-std::string textOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 /// A table's rows, each a map from column name to text.
