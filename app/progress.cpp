@@ -19,10 +19,7 @@ double secondsSince(Clock::time_point t) {
 }  // namespace
 
 Progress::Progress(std::string what)
-    : what_(std::move(what)),
-      start_(Clock::now()),
-      last_(),
-      terminal_(isatty(STDERR_FILENO) == 1) {}
+    : what_(std::move(what)), start_(Clock::now()), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() { clear(); }
 

@@ -20,7 +20,8 @@ constexpr double kSmallestSquare_px = 5.0;
 constexpr int kSmallestContrast = 20;  // grey values between the darkest and the brightest pixel
 
 std::size_t at(const Chessboard& board, int row, int column) {
-  return static_cast<std::size_t>(row * board.columns + column);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(board.columns) +
+         static_cast<std::size_t>(column);
 }
 
 // Smallest perpendicular distance from one corner to the grid lines through its neighbours [px].
@@ -82,7 +83,7 @@ void makeRightHanded(Corners& corners, const Chessboard& board) {
     return;
   }
   for (int r = 0; r < board.rows; ++r) {
-    const auto first = corners.begin() + r * board.columns;
+    const auto first = corners.begin() + static_cast<std::ptrdiff_t>(at(board, r, 0));
     std::reverse(first, first + board.columns);
   }
 }

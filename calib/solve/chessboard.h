@@ -32,7 +32,9 @@ struct Chessboard {
   int rows = 0;           ///< inner corners along y_t
   double square_m = 0.0;  ///< side of a square [m]
 
-  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(columns * rows); }
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
   /// Corner positions in the board frame t, z = 0 [m].
   [[nodiscard]] std::vector<Eigen::Vector3d> points() const;
 };

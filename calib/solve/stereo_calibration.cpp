@@ -58,7 +58,7 @@ StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<Rejec
   const std::size_t most = std::max<std::size_t>(1, views.size() / 4);
   for (std::size_t taken = 0;; ++taken) {
     hook(0.1, fmt::format("fitting {} views", views.size()));
-    const StereoSolution solution = solve(views, board, terms);
+    StereoSolution solution = solve(views, board, terms);
     const std::vector<ViewError> errors = viewErrors(solution, views, board);
     const double limit = outlierLimit(errors);
     const auto worst = std::max_element(
@@ -138,6 +138,7 @@ std::string toString(Grade grade) {
 
 double outlierLimit(const std::vector<ViewError>& errors) {
   std::vector<double> values;
+  values.reserve(errors.size());
   for (const ViewError& e : errors) {
     values.push_back(e.both_px);
   }

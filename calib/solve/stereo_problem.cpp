@@ -104,7 +104,7 @@ class QuietLog {
 LensBlock blockOf(const CameraModel& model) {
   LensBlock block{model.K(0, 0), model.K(1, 1), model.K(0, 2), model.K(1, 2)};
   for (int i = 0; i < model.distortion.size(); ++i) {
-    block[static_cast<std::size_t>(4 + i)] = model.distortion[i];
+    block[4U + static_cast<std::size_t>(i)] = model.distortion[i];
   }
   return block;
 }

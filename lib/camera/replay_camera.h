@@ -46,6 +46,6 @@ class ReplayStereoCamera : public StereoCamera {
 
 /// Files that match a glob (*, ? and [...]), in natural order ("2" before "10"); a name
 /// without wildcards matches itself.
-[[nodiscard]] std::vector<std::filesystem::path> filesMatching(const std::string& glob);
+[[nodiscard]] std::vector<std::filesystem::path> filesMatching(const std::string& pattern);
 
 }  // namespace ringhook

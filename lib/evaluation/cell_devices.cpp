@@ -14,7 +14,7 @@ std::filesystem::path scenarioFile(const CellConfig& cell, const std::string& na
   if (name.empty()) {
     return cell.devices.scenario;
   }
-  const std::filesystem::path file = cell.devices.scenario.parent_path() / (name + ".yaml");
+  std::filesystem::path file = cell.devices.scenario.parent_path() / (name + ".yaml");
   if (!isFile(file)) {
     throw InputError("--scenario " + name + ": expected a scenario with a file " + file.string());
   }

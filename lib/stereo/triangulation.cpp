@@ -112,7 +112,7 @@ Outcome<TriangulatedPoint> triangulateOptimal(const PinholeView& left, const Pin
                                               const TriangulationOptions& options) {
   TriangulationOptions generous = options;
   generous.largest_residual_px = 10.0 * options.largest_residual_px;
-  const auto start = triangulateMidpoint(left, right, left_px, right_px, sigma_px, generous);
+  auto start = triangulateMidpoint(left, right, left_px, right_px, sigma_px, generous);
   if (!start) {
     return start;
   }
