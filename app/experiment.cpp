@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/atomic_file.h"
+#include "app/options.h"
 #include "core/error.h"
+#include "evaluation/noise_experiment.h"
 #include "evaluation/pendulum_experiment.h"
 
 namespace ringhook {
@@ -20,15 +21,25 @@ struct ExperimentFlags {
 };
 
 void runPendulum(const ExperimentFlags& flags) {
+  JsonFile json(flags.json);
   const PendulumExperiment experiment = runPendulumExperiment();
   const fs::path folder =
       flags.out.empty() ? fs::path("out/experiment-pendulum") : fs::path(flags.out);
   writePendulumOutputs(folder, experiment);
-  if (!flags.json.empty()) {
-    writeFileAtomically(flags.json, pendulumJson(experiment));
-  }
+  json.commit(pendulumJson(experiment));
   std::printf("%swritten: %s (report.html, summary.json, trajectories.csv)\n",
               pendulumTable(experiment).c_str(), folder.string().c_str());
+}
+
+void runNoise(const ExperimentFlags& flags) {
+  JsonFile json(flags.json);
+  const NoiseExperiment experiment = runNoiseExperiment();
+  const fs::path folder =
+      flags.out.empty() ? fs::path("out/experiment-noise") : fs::path(flags.out);
+  writeNoiseOutputs(folder, experiment);
+  json.commit(noiseJson(experiment));
+  std::printf("%swritten: %s (report.html, summary.json, noise.csv)\n",
+              noiseTable(experiment).c_str(), folder.string().c_str());
 }
 
 struct Experiment {
@@ -36,7 +47,7 @@ struct Experiment {
   void (*run)(const ExperimentFlags&);
 };
 
-constexpr Experiment kExperiments[] = {{"pendulum", runPendulum}};
+constexpr Experiment kExperiments[] = {{"pendulum", runPendulum}, {"noise", runNoise}};
 
 void runExperiment(const ExperimentFlags& flags) {
   std::string known;
@@ -54,15 +65,15 @@ void runExperiment(const ExperimentFlags& flags) {
 
 void addExperimentCommand(CLI::App& evaluate) {
   auto flags = std::make_shared<ExperimentFlags>();
-  CLI::App* command = evaluate.add_subcommand(
-      "experiment", "Repeat an experiment of the 2007 report beside its own numbers.");
-  command->footer(
+  CLI::App& command = addCommand(
+      evaluate, "experiment", "Repeat an experiment of the 2007 report beside its own numbers.",
       "pendulum: 1 m, 1 kg, released at 1 rad, D = 0 and 0.5; and the cell's hook.\n"
+      "noise: the step-wise motion, predicted with other and other noise values.\n"
       "Example: ringhook evaluate experiment pendulum --json pendulum.json");
-  command->add_option("NAME", flags->name, "pendulum")->required();
-  command->add_option("--out", flags->out, "folder for the results (out/experiment-NAME)");
-  command->add_option("--json", flags->json, "also write summary.json to this file");
-  command->callback([flags] { runExperiment(*flags); });
+  command.add_option("NAME", flags->name, "pendulum or noise")->required();
+  command.add_option("--out", flags->out, "folder for the results (out/experiment-NAME)");
+  addJsonOption(command, flags->json, "also write summary.json to this file");
+  command.callback([flags] { runExperiment(*flags); });
 }
 
 }  // namespace ringhook

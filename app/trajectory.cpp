@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "app/options.h"
 #include "core/error.h"
 #include "evaluation/trajectory_compare.h"
 #include "evaluation/trajectory_models.h"
@@ -57,6 +57,7 @@ std::map<std::string, std::string> columnsFrom(const std::vector<std::string>& w
 }
 
 void runTrajectory(const TrajectoryFlags& flags) {
+  JsonFile json(flags.json);
   const Trajectory trajectory =
       readTrajectory(flags.file, {columnsFrom(flags.columns), flags.rate_hz});
   const TrajectoryResult result = evaluateTrajectory(trajectory, flags.evaluation);
@@ -65,9 +66,7 @@ void runTrajectory(const TrajectoryFlags& flags) {
     writeTrajectoryOutputs(flags.out, result);
     std::printf("written: %s (report.html, summary.json, frames.csv)\n", flags.out.c_str());
   }
-  if (!flags.json.empty()) {
-    writeFileAtomically(flags.json, trajectoryJson(result));
-  }
+  json.commit(trajectoryJson(result));
   if (!result.summaries.front().predicts) {
     throw Error(result.summaries.front().name + " never began to predict " + trajectory.name +
                 ": " + result.summaries.front().note);
@@ -75,6 +74,7 @@ void runTrajectory(const TrajectoryFlags& flags) {
 }
 
 void runCompare(const CompareFlags& flags) {
+  JsonFile json(flags.json);
   const Alignment alignment = alignmentFromText(flags.align);
   if (!(flags.max_difference_s >= 0.0)) {
     throw InputError("--max-difference: expected a number of seconds, at least 0");
@@ -90,9 +90,7 @@ void runCompare(const CompareFlags& flags) {
               error.median_m);
   std::printf("std    %12.7f m\nmin    %12.7f m\nmax    %12.7f m\n", error.std_m, error.min_m,
               error.max_m);
-  if (!flags.json.empty()) {
-    writeFileAtomically(flags.json, trackErrorJson(error, alignment));
-  }
+  json.commit(trackErrorJson(error, alignment));
 }
 
 }  // namespace
@@ -100,51 +98,50 @@ void runCompare(const CompareFlags& flags) {
 void addTrajectoryCommand(CLI::App& evaluate) {
   auto flags = std::make_shared<TrajectoryFlags>();
   TrajectoryEvaluationOptions& options = flags->evaluation;
-  CLI::App* command = evaluate.add_subcommand(
-      "trajectory", "Predict a recorded trajectory with all models, side by side.");
-  command->footer(kTrajectoryExample);
+  CLI::App& command = addCommand(evaluate, "trajectory",
+                                 "Predict a recorded trajectory with all models, side by side.",
+                                 kTrajectoryExample);
   std::string known;
   for (const auto& name : motionModelNames()) {
     known += ", " + name;
   }
-  command->add_option("FILE", flags->file, "trajectory.csv: angles or points")->required();
-  command->add_option("--columns", flags->columns, "other column names, as in x=load_x,y=load_y")
+  command.add_option("FILE", flags->file, "trajectory.csv: angles or points")->required();
+  command.add_option("--columns", flags->columns, "other column names, as in x=load_x,y=load_y")
       ->delimiter(',');
-  command->add_option("--rate", flags->rate_hz, "samples per second of a file without time_s [Hz]");
-  command->add_option("--horizons", options.horizons_s, "how far ahead to predict [s]")
+  command.add_option("--rate", flags->rate_hz, "samples per second of a file without time_s [Hz]");
+  command.add_option("--horizons", options.horizons_s, "how far ahead to predict [s]")
       ->delimiter(',')
       ->capture_default_str();
   command
-      ->add_option("--models", options.models, "all" + known + "; the first is the main one (all)")
+      .add_option("--models", options.models, "all" + known + "; the first is the main one (all)")
       ->delimiter(',');
-  command->add_option("--noise", options.noise,
-                      "measurement noise of each number [rad or m] (estimated from the data)");
-  command->add_option("--length", options.length_m,
-                      "effective length of the linear pendulums [m] (from the first seconds)");
-  command->add_option("--warm-up", options.warm_up_s, "time before predictions are judged [s]")
+  command.add_option("--noise", options.noise,
+                     "measurement noise of each number [rad or m] (estimated from the data)");
+  command.add_option("--length", options.length_m,
+                     "effective length of the linear pendulums [m] (from the first seconds)");
+  command.add_option("--warm-up", options.warm_up_s, "time before predictions are judged [s]")
       ->capture_default_str();
-  command->add_option("--out", flags->out, "folder for report.html, summary.json and frames.csv");
-  command->add_option("--json", flags->json, "write summary.json to this file");
-  command->callback([flags] { runTrajectory(*flags); });
+  command.add_option("--out", flags->out, "folder for report.html, summary.json and frames.csv");
+  addJsonOption(command, flags->json, "write summary.json to this file");
+  command.callback([flags] { runTrajectory(*flags); });
 }
 
 void addCompareCommand(CLI::App& evaluate) {
   auto flags = std::make_shared<CompareFlags>();
-  CLI::App* command =
-      evaluate.add_subcommand("compare", "Trajectory error between two TUM or two KITTI files.");
-  command->footer(kCompareExample);
-  command->add_option("REF", flags->reference, "reference trajectory")->required();
-  command->add_option("EST", flags->estimate, "estimated trajectory")->required();
+  CLI::App& command = addCommand(
+      evaluate, "compare", "Trajectory error between two TUM or two KITTI files.", kCompareExample);
+  command.add_option("REF", flags->reference, "reference trajectory")->required();
+  command.add_option("EST", flags->estimate, "estimated trajectory")->required();
   command
-      ->add_option("--align", flags->align,
-                   "lay the estimate on the reference first: none, se3, sim3")
+      .add_option("--align", flags->align,
+                  "lay the estimate on the reference first: none, se3, sim3")
       ->capture_default_str();
   command
-      ->add_option("--max-difference", flags->max_difference_s,
-                   "largest difference of two times that are one instant [s]")
+      .add_option("--max-difference", flags->max_difference_s,
+                  "largest difference of two times that are one instant [s]")
       ->capture_default_str();
-  command->add_option("--json", flags->json, "write the result to this file");
-  command->callback([flags] { runCompare(*flags); });
+  addJsonOption(command, flags->json, "write the result to this file");
+  command.callback([flags] { runCompare(*flags); });
 }
 
 }  // namespace ringhook

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "prediction/chi_square.h"
 
@@ -167,15 +168,14 @@ std::vector<ModelSummary> summariseRuns(const Trajectory& trajectory,
   const std::size_t first = firstJudged(trajectory, runs, warm_up_s);
   std::vector<ModelSummary> summaries;
   for (const ModelRun& run : runs) {
-    summaries.push_back({run.name,
-                         run.note,
-                         firstPrediction(run, samples).has_value(),
-                         {},
-                         kNone,
-                         0,
-                         kNone,
-                         run.parameters.back(),
-                         run.refused});
+    ModelSummary summary;
+    summary.name = run.name;
+    summary.predicts = firstPrediction(run, samples).has_value();
+    summary.parameters = run.parameters.back();
+    summary.refused = run.refused;
+    const bool late = !summary.predicts && !summary.parameters.empty();
+    summary.note = late ? "began too late to be judged" : run.note;
+    summaries.push_back(std::move(summary));
     judgeConsistency(run, first, summaries.back());
   }
   for (std::size_t h = 0; h < truth.size(); ++h) {

@@ -172,6 +172,9 @@ Model makeTunedModel(const std::string& name, const Trajectory& trajectory,
                                      [&name](const Entry& one) { return name == one.name; });
   const Making making{trajectory.kind, medianStep(trajectory), settings};
   const int count = isAngular(trajectory.kind) ? entry.angle_densities : entry.point_densities;
+  if (count == 0) {
+    return entry.make(making, {});
+  }
   const Densities densities(static_cast<std::size_t>(count), 1.0);
   const Making known = started(entry, making, densities, trajectory);
   const Densities best = descend(densities, [&](const Densities& trial) {

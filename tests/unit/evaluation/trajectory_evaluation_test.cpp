@@ -149,6 +149,7 @@ TEST(SummariseRuns, JudgesAllModelsOnTheSamplesWhereTheSlowestPredicts) {
   }
   EXPECT_EQ(firstJudged(swing, runs, 0.5), 119U);
   EXPECT_EQ(firstJudged(swing, runs, 1.5), 150U);
+  EXPECT_EQ(firstJudged(swing, {runs[2]}, 0.1), 10U);
   const auto summaries = summariseRuns(swing, truth, runs, 0.5);
   EXPECT_EQ(summaries[0].horizons[0].samples, 300U - 10U - 119U);
   EXPECT_EQ(summaries[1].horizons[0].samples, 300U - 10U - 119U);

@@ -120,6 +120,14 @@ TEST(ExactPendulum, IsLeftBehindByAPivotThatAccelerates) {
   EXPECT_NEAR(then(4), -0.4 * std::sin(1.2), 1e-12);
 }
 
+// p + s is pushed by what the swing's own law leaves out, and by nothing else.
+TEST(ExactPendulum, ADriftingPivotThatIsPushedLeavesTheLoadWhereItIs) {
+  const Eigen::Matrix4d W = driftingDensity(0.7, 0.2);
+  const Eigen::RowVector4d load_speed(0.0, 1.0, 0.0, 1.0);
+  EXPECT_NEAR((load_speed * W * load_speed.transpose())(0), 0.2, 1e-15);
+  EXPECT_NEAR(W(1, 1), 0.7, 1e-15);
+}
+
 TEST(ExactPendulum, IsWhatTheReportsMapTendsToWithTheFirstPowerOfItsStep) {
   PendulumParameters parameters;
   parameters.length_m = 0.35;
