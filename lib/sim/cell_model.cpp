@@ -9,6 +9,8 @@
 #include "sim/cell_visuals.h"
 #include "sim/hook_air.h"
 #include "sim/hook_body.h"
+#include "sim/hook_hinges.h"
+#include "sim/mjcf_text.h"
 
 namespace ringhook {
 namespace {
@@ -23,45 +25,6 @@ constexpr const char* kFloorContact = R"( contype="0" conaffinity="8")";
 constexpr const char* kRingFloorContact = R"( contype="8" conaffinity="0")";
 constexpr const char* kNotDrawn = R"( group="3")";
 constexpr const char* kNoContact = R"( contype="0" conaffinity="0")";
-
-std::string attribute(const char* name, const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::ostringstream text;
-  text << std::setprecision(17) << ' ' << name << "=\"";
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    text << (i > 0 ? " " : "") << values[i];
-  }
-  text << '"';
-  return text.str();
-}
-
-std::string attribute(const char* name, double value) {
-  return attribute(name, Eigen::VectorXd::Constant(1, value));
-}
-
-std::string placing(const Pose& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  return attribute("pos", pose.translation()) +
-         attribute("quat", Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
-}
-
-std::string inertial(double mass, const Eigen::Vector3d& center, const Eigen::Matrix3d& inertia) {
-  Eigen::VectorXd full(6);
-  full << inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2), inertia(1, 2);
-  return "<inertial" + attribute("mass", mass) + attribute("pos", center) +
-         attribute("fullinertia", full) + "/>\n";
-}
-
-std::string box(const Eigen::Vector3d& pos, const Eigen::Vector3d& half, const std::string& more) {
-  return "<geom type=\"box\"" + attribute("pos", pos) + attribute("size", half) + more + "/>\n";
-}
-
-std::string capsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius,
-                    const std::string& more) {
-  Eigen::VectorXd ends(6);
-  ends << from, to;
-  return "<geom type=\"capsule\"" + attribute("fromto", ends) + attribute("size", radius) + more +
-         "/>\n";
-}
 
 // ---- Arm
 
@@ -145,16 +108,9 @@ std::string hook(const CellOptions& options, const HookDraw& draw, int index) {
   const Eigen::Vector3d pivot = hookPivot(draw.pivot_height);
   const double back = options.belt.start_y - index * options.hook.spacing;
   const Eigen::Vector3d pivot_f(options.belt.x, back, options.belt.pivot_z);
-  const HookMass mass = hookMass();
   std::ostringstream text;
   text << "<body name=\"hook" << index << "\"" << attribute("pos", pivot_f - pivot) << ">\n";
-  for (const char* axis : {"x", "y"}) {
-    text << "<joint name=\"hook" << index << '_' << axis << "\" type=\"hinge\" axis=\""
-         << (*axis == 'x' ? "1 0 0" : "0 1 0") << '"' << attribute("pos", pivot)
-         << attribute("frictionloss", draw.friction) << attribute("damping", draw.damping)
-         << "/>\n";
-  }
-  text << inertial(mass.mass, mass.center_o, mass.inertia_o);
+  text << hookHingesXml(draw, index);
   for (const HookPart& part : hookBars()) {
     text << box(part.center_o, part.half_size,
                 attribute("euler", Eigen::Vector3d(part.angle_x, 0.0, 0.0)) + kHookContact +
