@@ -102,6 +102,8 @@ TEST_F(TrajectoryCommand, CompareRefusesWhatItCannotCompare) {
 
 // Real data.
 
+constexpr auto kCompared = "exact-pendulum,constant-acceleration";
+
 class RecordedTrajectories : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -126,12 +128,12 @@ class RecordedTrajectories : public ::testing::Test {
   }
   nlohmann::json swing(int segment) {
     const auto file = data_ / "encoder-pendulum" / ("segment_" + std::to_string(segment) + ".csv");
-    return evaluated({"trajectory", file.string(), "--horizons", "0.2"});
+    return evaluated({"trajectory", file.string(), "--horizons", "0.2", "--models", kCompared});
   }
   nlohmann::json flight(int number) {
     const auto file = data_ / "slung-load" / ("flight_" + std::to_string(number) + ".csv");
     return evaluated({"trajectory", file.string(), "--rate", "29.3", "--columns",
-                      "x=load_x,y=load_y,z=load_z", "--horizons", "0.5"});
+                      "x=load_x,y=load_y,z=load_z", "--horizons", "0.5", "--models", kCompared});
   }
   fs::path data_;
   fs::path folder_;
