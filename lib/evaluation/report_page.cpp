@@ -131,7 +131,7 @@ std::string reportHtml(const ReportPage& page) {
     html += "<h2>" + escaped(page.charts[i].title) + "</h2>\n<div class=\"chart\" id=\"chart" +
             std::to_string(i) + "\"></div>\n";
   }
-  html += "<script type=\"application/json\" id=\"charts\">" + chartData(page.charts) +
+  html += R"(<script type="application/json" id="charts">)" + chartData(page.charts) +
           "</script>\n<script>" + kDrawCharts + "</script>\n</body>\n</html>\n";
   return html;
 }

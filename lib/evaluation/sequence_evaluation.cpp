@@ -149,6 +149,7 @@ std::vector<MethodRun> runSequence(StereoCamera& camera, const Rectifier& rectif
     }
   }
   std::vector<MethodRun> runs;
+  runs.reserve(runners.size());
   for (auto& runner : runners) {
     runs.push_back(std::move(runner.run));
   }

@@ -11,6 +11,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 StageTimes stageTimes(const std::vector<FrameRecord>& frames, double FrameRecord::*seconds) {
   std::vector<double> times_ms;
+  times_ms.reserve(frames.size());
   for (const auto& frame : frames) {
     times_ms.push_back(frame.*seconds * 1e3);
   }

@@ -22,7 +22,7 @@ std::string readText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
   content << file.rdbuf();
-  const std::string text = content.str();
+  std::string text = content.str();
   if (!text.starts_with("%YAML") || text.find('\0') != std::string::npos) {
     throw InputError(path.string() + ": is not an OpenCV YAML file, whose first line is %YAML:1.0");
   }
@@ -32,7 +32,7 @@ std::string readText(const fs::path& path) {
 /// Typed access to the top-level keys; every failure names file, key and the expected shape.
 class KeyReader {
  public:
-  KeyReader(cv::FileNode root, std::string file) : root_(root), file_(std::move(file)) {}
+  KeyReader(const cv::FileNode& root, std::string file) : root_(root), file_(std::move(file)) {}
 
   [[nodiscard]] bool has(const std::string& key) const { return !root_[key].empty(); }
 
@@ -68,7 +68,7 @@ class KeyReader {
   /// Matrix of exactly this shape.
   [[nodiscard]] Eigen::MatrixXd matrix(const std::string& key, int rows, int cols) const {
     const std::string shape = std::to_string(rows) + "x" + std::to_string(cols) + " matrix";
-    const Eigen::MatrixXd m = anyMatrix(key, shape);
+    Eigen::MatrixXd m = anyMatrix(key, shape);
     if (m.rows() != rows || m.cols() != cols) {
       fail(key,
            "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
@@ -79,7 +79,7 @@ class KeyReader {
   /// Row or column of 0 to `most` numbers.
   [[nodiscard]] Eigen::VectorXd vector(const std::string& key, int most) const {
     const std::string shape = "row or column of at most " + std::to_string(most) + " numbers";
-    const Eigen::MatrixXd m = anyMatrix(key, shape);
+    Eigen::MatrixXd m = anyMatrix(key, shape);
     if ((m.rows() > 1 && m.cols() > 1) || m.size() > most) {
       fail(key,
            "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
@@ -103,9 +103,9 @@ class KeyReader {
     const int rows = static_cast<int>(node["rows"]);
     const int cols = static_cast<int>(node["cols"]);
     const std::string type = static_cast<std::string>(node["dt"]);
-    const bool sane = rows >= 0 && cols >= 0 && rows <= 64 && cols <= 64 &&
-                      (type == "d" || type == "f") &&
-                      node["data"].size() == static_cast<std::size_t>(rows * cols);
+    const bool sane =
+        rows >= 0 && cols >= 0 && rows <= 64 && cols <= 64 && (type == "d" || type == "f") &&
+        node["data"].size() == static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols);
     if (!sane) {
       fail(key, expected);
     }

@@ -231,8 +231,8 @@ void closeGripper(CellState& cell) {
 Pose bodyPose(const CellState& cell, int body) {
   using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   Pose pose = Pose::Identity();
-  pose.linear() = Eigen::Map<const RowMatrix>(cell.data->xmat + 9 * body);
-  pose.translation() = Eigen::Map<const Eigen::Vector3d>(cell.data->xpos + 3 * body);
+  pose.linear() = Eigen::Map<const RowMatrix>(cell.data->xmat + 9L * body);
+  pose.translation() = Eigen::Map<const Eigen::Vector3d>(cell.data->xpos + 3L * body);
   return pose;
 }
 

@@ -22,8 +22,8 @@ void require(bool succeeded, const char* call) {
 
 /// One display for the process: terminating it would end every context on it.
 EGLDisplay surfacelessDisplay() {
-  static const EGLDisplay display = [] {
-    const EGLDisplay opened =
+  static EGLDisplay display = [] {
+    EGLDisplay opened =
         eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     require(opened != EGL_NO_DISPLAY, "eglGetPlatformDisplay");
     require(eglInitialize(opened, nullptr, nullptr) == EGL_TRUE, "eglInitialize");

@@ -107,7 +107,7 @@ std::vector<Eigen::Vector3d> hookCentreline(const HookShape& s) {
   constexpr int kSteps = 36;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = -std::numbers::pi * i / kSteps;
-    line.push_back(s.arc_radius * Eigen::Vector3d(0.0, std::cos(angle), std::sin(angle)));
+    line.emplace_back(0.0, s.arc_radius * std::cos(angle), s.arc_radius * std::sin(angle));
   }
   line.emplace_back(0.0, -s.arc_radius, s.shank_length);
   return line;

@@ -38,7 +38,7 @@ void SceneMotion::solidsAt(double time_s, double from_now_s, std::vector<Solid>&
   mju_copy(moved.qpos, impl_->present.qpos, model.nq);
   mj_integratePos(&model, moved.qpos, impl_->present.qvel, from_now_s);
   for (std::size_t i = 0; i < impl_->occluders.size(); ++i) {
-    mjtNum* position = moved.mocap_pos + 3 * impl_->mocap[i];
+    mjtNum* position = moved.mocap_pos + 3L * impl_->mocap[i];
     position[0] = impl_->occluder_x;
     position[1] = impl_->occluders[i].y(time_s + from_now_s);
     position[2] = 0.0;

@@ -41,7 +41,7 @@ class ScenePrograms {
     unsigned id = 0;
     unsigned seen_view = 0;  ///< number of the view it was told last
   };
-  Program link(const SurfaceKind& kind) const;
+  [[nodiscard]] Program link(const SurfaceKind& kind) const;
   void tell(Program& program) const;
 
   SceneLight light_;

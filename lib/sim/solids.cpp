@@ -31,7 +31,7 @@ Corners cornersInCamera(const Solid& solid, const Pose& cMf) {
 }
 
 void setShape(const mjModel& model, int geom, Solid& solid) {
-  const mjtNum* size = model.geom_size + 3 * geom;
+  const mjtNum* size = model.geom_size + 3L * geom;
   const Eigen::Vector3d ball = Eigen::Vector3d::Constant(size[0]);
   switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:
@@ -62,15 +62,15 @@ void setShape(const mjModel& model, int geom, Solid& solid) {
 
 void setLook(const mjModel& model, int geom, Solid& solid) {
   constexpr std::array<float, 4> kUnset{0.5F, 0.5F, 0.5F, 1.0F};
-  const float* rgba = model.geom_rgba + 4 * geom;
+  const float* rgba = model.geom_rgba + 4L * geom;
   const int material = model.geom_matid[geom];
   if (material >= 0) {
     solid.specular = model.mat_specular[material];
     solid.shininess = model.mat_shininess[material];
     solid.texture = model.mat_texid[material];
-    solid.repeat = {model.mat_texrepeat[2 * material], model.mat_texrepeat[2 * material + 1]};
+    solid.repeat = {model.mat_texrepeat[2L * material], model.mat_texrepeat[2L * material + 1]};
     if (std::equal(kUnset.begin(), kUnset.end(), rgba)) {
-      rgba = model.mat_rgba + 4 * material;
+      rgba = model.mat_rgba + 4L * material;
     }
   }
   std::copy_n(rgba, 3, solid.colour.begin());
@@ -85,8 +85,8 @@ void takeSolids(const mjModel_& model, const mjData_& data, std::vector<Solid>& 
       continue;
     }
     Solid solid;
-    solid.fMs.linear() = Eigen::Map<const RowMatrix>(data.geom_xmat + 9 * g);
-    solid.fMs.translation() = Eigen::Map<const Eigen::Vector3d>(data.geom_xpos + 3 * g);
+    solid.fMs.linear() = Eigen::Map<const RowMatrix>(data.geom_xmat + 9L * g);
+    solid.fMs.translation() = Eigen::Map<const Eigen::Vector3d>(data.geom_xpos + 3L * g);
     setShape(model, g, solid);
     setLook(model, g, solid);
     solids.push_back(solid);

@@ -206,7 +206,7 @@ std::vector<JointVector> expandTurns(const JointVector& q, const JointLimits& li
       candidate(3) = q4;
       candidate(5) = q6;
       if (excessOf(candidate, limits).angle == 0.0) {
-        expanded.push_back(candidate.cwiseMax(limits.lower).cwiseMin(limits.upper));
+        expanded.emplace_back(candidate.cwiseMax(limits.lower).cwiseMin(limits.upper));
       }
     }
   }

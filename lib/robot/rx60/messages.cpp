@@ -223,24 +223,24 @@ Frame encode(const Message& message) {
   return frame;
 }
 
-Outcome<std::size_t> frameSize(std::span<const std::byte> bytes) {
-  assert(bytes.size() >= kLengthBytes + kHeaderBytes);
-  const Prefix prefix = readPrefix(bytes);
-  const std::optional<std::size_t> body = bodyBytes(prefix.type);
+Outcome<std::size_t> frameSize(std::span<const std::byte> prefix) {
+  assert(prefix.size() >= kLengthBytes + kHeaderBytes);
+  const Prefix told = readPrefix(prefix);
+  const std::optional<std::size_t> body = bodyBytes(told.type);
   if (!body) {
-    return Refusal{"a message of unknown type " + std::to_string(prefix.type) + " and length " +
-                   std::to_string(prefix.length)};
+    return Refusal{"a message of unknown type " + std::to_string(told.type) + " and length " +
+                   std::to_string(told.length)};
   }
-  const char* name = nameOf(static_cast<MessageType>(prefix.type));
-  if (prefix.length != static_cast<std::int32_t>(kHeaderBytes + *body)) {
-    return Refusal{std::string(name) + " of length " + std::to_string(prefix.length) +
+  const char* name = nameOf(static_cast<MessageType>(told.type));
+  if (told.length != static_cast<std::int32_t>(kHeaderBytes + *body)) {
+    return Refusal{std::string(name) + " of length " + std::to_string(told.length) +
                    " instead of " + std::to_string(kHeaderBytes + *body)};
   }
-  if (prefix.comm < 1 || prefix.comm > 3) {
-    return Refusal{std::string(name) + " with unknown comm type " + std::to_string(prefix.comm)};
+  if (told.comm < 1 || told.comm > 3) {
+    return Refusal{std::string(name) + " with unknown comm type " + std::to_string(told.comm)};
   }
-  if (prefix.reply < 0 || prefix.reply > 2) {
-    return Refusal{std::string(name) + " with unknown reply code " + std::to_string(prefix.reply)};
+  if (told.reply < 0 || told.reply > 2) {
+    return Refusal{std::string(name) + " with unknown reply code " + std::to_string(told.reply)};
   }
   return kLengthBytes + kHeaderBytes + *body;
 }
