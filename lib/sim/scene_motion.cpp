@@ -1,5 +1,6 @@
 #include "sim/scene_motion.h"
 
+#include <algorithm>
 #include <string>
 
 #include "sim/mujoco_model.h"
@@ -51,6 +52,7 @@ std::vector<Occluder> drawOccluders(const SceneOptions& options, std::uint64_t c
   SceneDice dice(options, cell_seed, SceneStream::occluders);
   const OccluderOptions& chosen = options.occluder;
   std::vector<Occluder> occluders;
+  occluders.reserve(static_cast<std::size_t>(std::max(0, chosen.count)));
   for (int i = 0; i < chosen.count; ++i) {
     occluders.push_back(
         {chosen.first_s + i * chosen.interval_s, chosen.speed * dice.factor(chosen.speed_spread)});

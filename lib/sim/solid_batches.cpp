@@ -6,6 +6,7 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <string>
 
@@ -21,7 +22,8 @@ constexpr std::array<SolidShape, 6> kShapes{SolidShape::box,          SolidShape
 constexpr std::array<int, 7> kAttributes{3, 3, 3, 3, 4, 4, 3};
 constexpr int kInstanceFloats = 23;
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+/// OpenGL takes offsets into a buffer where it once took addresses.
+const void* offset(std::size_t bytes) { return std::bit_cast<const void*>(bytes); }
 
 void append(std::vector<float>& values, const Eigen::Vector3d& v) {
   for (int i = 0; i < 3; ++i) {
