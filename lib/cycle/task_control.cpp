@@ -9,7 +9,10 @@
 namespace ringhook {
 namespace {
 
+// What says nothing against the hook, and may be over when it is tried again.
 constexpr const char* kStale = "hook's estimate stale";
+constexpr const char* kOffPath = "ring off its path while lowering";
+constexpr int kMostTries = 3;
 
 }  // namespace
 
@@ -44,8 +47,8 @@ TaskCommand TaskControl::step(const ArmState& state, const std::optional<HookFil
   if (hook) {
     hook_ = hook;
   }
-  const TaskPhase phase = phase_;
   TaskCommand command;
+  const TaskPhase phase = phase_;
   switch (phase) {
     case TaskPhase::kLoad:
       command = coarse(state, cell_.arm.load_rad, TaskPhase::kGrip);
@@ -93,8 +96,7 @@ TaskCommand TaskControl::coarse(const ArmState& state, const JointVector& target
 
 TaskCommand TaskControl::grip(const ArmState& state) {
   if (!ring_held_) {
-    gripper_order_ = true;
-    ring_held_ = true;
+    gripper_order_ = ring_held_ = true;
   }
   if (state.time - phase_start_ >= cell_.arm.gripper_time_s) {
     enter(TaskPhase::kStandby, state);
@@ -108,13 +110,13 @@ TaskCommand TaskControl::wait(const ArmState& state) {
   TaskCommand command;
   command.velocity = motion_.rest(state);
   if (result_.tries > 0 && !hook_seen_) {
-    abort(kStale, state);  // the hook that was to be tried again is gone
+    abort("hook lost", state);
   } else if (hook_seen_ && hook_->ready && !stale(state)) {
     if (const Outcome<HookEstimate> now = predictHook(*hook_, state.time)) {
       meet(*now, state);
     }
   } else if (state.time - phase_start_ > cell_.task.hook_timeout_s) {
-    abort(result_.tries > 0 ? kStale : "no hook came", state);
+    abort("no hook came", state);
   }
   return command;
 }
@@ -124,7 +126,7 @@ void TaskControl::meet(const HookEstimate& hook, const ArmState& state) {
   const double travel = hookTravel(cell_, hook.fMo);
   const double speed = hookTravelSpeed(cell_, hook);
   if (travel + std::abs(speed) * insertionTime(cell_, path_parameters_) > cell_.belt.pick_to_m) {
-    abort(result_.tries > 0 ? kStale : "hook came too late for the arm's window", state);
+    abort("hook came too late for the arm's window", state);
   } else if (travel >= cell_.belt.pick_from_m) {
     ++result_.tries;
     result_.abort_reason.clear();
@@ -174,10 +176,9 @@ void TaskControl::advance(const ArmState& state, double error_m) {
     case TaskPhase::kLower:
       result_.tracking_error_m.add(error_m);
       if (error_m > cell_.task.abort_tolerance_m) {
-        abort("ring off its path while lowering", state);
+        abort(kOffPath, state);
       } else if (path_done) {
-        gripper_order_ = false;
-        ring_held_ = false;
+        gripper_order_ = ring_held_ = false;
         result_.released = true;
         result_.released_at = state.time;
         enterPath(TaskPhase::kRelease, InsertionPhase::kHold, oMr, state);
@@ -252,11 +253,12 @@ void TaskControl::enterPath(TaskPhase phase, InsertionPhase path, const Pose& oM
 }
 
 void TaskControl::abort(const std::string& reason, const ArmState& state) {
-  result_.abort_reason = reason;
+  const bool waits_again = phase_ == TaskPhase::kWait && result_.tries > 0;
+  result_.abort_reason = waits_again ? result_.abort_reason : reason;
   result_.released = false;
-  const bool near_hook =
-      phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign || phase_ == TaskPhase::kLower;
-  may_try_again_ = near_hook && reason == kStale;
+  const bool near_hook = phase_ >= TaskPhase::kApproach && phase_ <= TaskPhase::kLower;
+  const bool may_pass = near_hook && (reason == kStale || reason == kOffPath);
+  may_try_again_ = may_pass && result_.tries < kMostTries;
   const std::optional<Pose> fMo = near_hook ? hookNow(state) : std::nullopt;
   path_.clear();
   if (fMo) {
@@ -279,10 +281,8 @@ std::string TaskControl::whyNotFollow(const ArmState& state) const {
   }
   const std::optional<Pose> fMo = hookNow(state);
   const bool inserting = phase_ == TaskPhase::kApproach || phase_ == TaskPhase::kAlign;
-  if (fMo && inserting && hookTravel(cell_, *fMo) > cell_.belt.pick_to_m) {
-    return "hook left the arm's window";
-  }
-  return {};
+  const bool left = fMo && inserting && hookTravel(cell_, *fMo) > cell_.belt.pick_to_m;
+  return left ? "hook left the arm's window" : "";
 }
 
 bool TaskControl::stale(const ArmState& state) const {

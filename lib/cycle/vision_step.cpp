@@ -37,6 +37,11 @@ Window unite(const Window& a, const Window& b) {
 
 }  // namespace
 
+double expectedInterval(const std::optional<double>& last_s, double rate_hz) {
+  const double period_s = 1.0 / rate_hz;
+  return std::clamp(last_s.value_or(period_s), period_s, std::max(period_s, kLongestInterval));
+}
+
 VisionStep::VisionStep(const CellConfig& cell, const StereoRig& rig, TrackerKind tracker)
     : cell_(cell),
       fMc1_(requireRobotCamera(rig, cell.rig)),
@@ -58,15 +63,16 @@ VisionStep::VisionStep(const CellConfig& cell, const StereoRig& rig, TrackerKind
 VisionReport VisionStep::process(const StereoFrame& frame) {
   VisionReport report;
   report.time = frame.time;
+  const bool searched = state_ == VisionState::kSearching;
   const Outcome<HookFix> fix = see(frame);
   if (fix) {
     take(*fix, report);
   } else {
     miss(fix.reason(), report);
   }
-  const double period_s = 1.0 / rateHz();
-  frame_interval_s_ =
-      last_frame_ ? std::clamp(frame.time - *last_frame_, period_s, kLongestInterval) : period_s;
+  const bool rate_changed = searched != (state_ == VisionState::kSearching);
+  const auto last_s = last_frame_ ? std::optional(frame.time - *last_frame_) : std::nullopt;
+  frame_interval_s_ = expectedInterval(rate_changed ? std::nullopt : last_s, rateHz());
   last_frame_ = frame.time;
   planWindows(frame.time);
   report.state = state_;

@@ -37,6 +37,11 @@ struct VisionReport {
   std::optional<double> error_100ms_m;  ///< fix against the prediction made 100 ms before, at o
 };
 
+/// How long after a frame the next one is to be expected [s], when the last two were `last_s`
+/// apart: a camera that cannot keep up with `rate_hz` is known by its last interval; without one it
+/// is taken at its word. Longer than 0.2 s is not looked ahead: windows would only grow.
+double expectedInterval(const std::optional<double>& last_s, double rate_hz);
+
 class VisionStep {
  public:
   /// Loads the models that the cell names. Throws InputError for bad files.
@@ -72,7 +77,7 @@ class VisionStep {
   VisionState state_ = VisionState::kSearching;
   int misses_ = 0;
   std::optional<Time> last_frame_;
-  double frame_interval_s_ = 0.0;  ///< between the last two frames, at least a period
+  double frame_interval_s_ = 0.0;  ///< expected until the next frame
   std::array<Window, 2> search_windows_;
   std::array<Window, 2> windows_;
   std::deque<HookFilterState> past_;  ///< snapshots of the last 100 ms and a little more

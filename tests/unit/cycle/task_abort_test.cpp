@@ -117,10 +117,11 @@ TEST(TaskAbort, HookLostWhileLoweringIsNamedAtOnce) {
 
 TEST(TaskAbort, RingOffItsPathIsNotLoweredFurther) {
   CellConfig cell = test::defaultCell();
-  cell.task.abort_tolerance_m = 1e-5;
+  cell.task.abort_tolerance_m = 1e-9;
   TaskBench bench(cell, MovingHook{});
   ASSERT_TRUE(bench.finish());
   EXPECT_EQ(bench.task.result().abort_reason, "ring off its path while lowering");
+  EXPECT_EQ(bench.task.result().tries, 3) << "and then it is given up";
   EXPECT_TRUE(keptTheRing(bench));
 }
 
