@@ -21,12 +21,20 @@ std::int64_t steadyMinusReal_ns() {
   return duration_cast<nanoseconds>(steady).count() - duration_cast<nanoseconds>(real).count();
 }
 
+/// A free-running camera that sends nothing for longer is taken for gone [s].
+constexpr std::int64_t kGone_s = 3;
+
+std::int64_t steady_s() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::seconds(1);
+}
+
 /// On the thread that puts packets together: a full socket drops them.
-void onStream(void* /*nothing*/, ArvStreamCallbackType type, ArvBuffer* /*buffer*/) {
+void onStream(void* heard_s, ArvStreamCallbackType type, ArvBuffer* /*buffer*/) {
   if (type == ARV_STREAM_CALLBACK_TYPE_INIT) {
     thread_local const RaisedPriority raised(kCameraRank);
     static_cast<void>(raised.reached());
   }
+  *static_cast<std::atomic<std::int64_t>*>(heard_s) = steady_s();
 }
 
 }  // namespace
@@ -45,6 +53,7 @@ struct GigeCamera::Impl {
   }
 
   GigeCameraOptions options;
+  std::atomic<std::int64_t> heard_s = 0;  ///< last sign of its stream; host's steady clock [s]
   Owned<ArvDevice> device;
   Owned<ArvCamera> camera;
   Owned<ArvStream> stream;
@@ -75,14 +84,16 @@ GigeCamera::Impl::Impl(const GigeCameraOptions& o) : options(o), device(openArvD
 
 GigeCamera::Impl::~Impl() {
   g_signal_handler_disconnect(device.get(), control_signal);
+  const bool sends = streaming && options.trigger == CameraTrigger::kFreeRun;
+  silent = silent || (sends && steady_s() - heard_s > kGone_s);
   if (streaming && !control_lost && !silent) {
     ArvError error(options.device);
     arv_camera_stop_acquisition(camera.get(), error.out());
     silent = error.timedOut();
   }
   if (control_lost || silent) {
-    // Giving control back means asking again and again, for seconds. A camera that does not answer
-    // takes it back by itself (heartbeat), so what is held of it is left to the program's end.
+    // Giving control back means asking again and again, for seconds. The camera takes it back by
+    // itself (heartbeat), so what is held of it is left to the program's end.
     static_cast<void>(camera.release());
     static_cast<void>(device.release());
   }
@@ -144,7 +155,7 @@ void GigeCamera::Impl::setTrigger() {
 /// Buffers hold a full image each: a change of the region's size needs no others.
 void GigeCamera::Impl::openStream() {
   ArvError error(options.device);
-  stream.reset(arv_camera_create_stream(camera.get(), &onStream, nullptr, error.out()));
+  stream.reset(arv_camera_create_stream(camera.get(), &onStream, &heard_s, error.out()));
   error.require("opens no stream");
   const auto bytes = static_cast<std::size_t>(limits.sensor_width) *
                      static_cast<std::size_t>(limits.sensor_height);
@@ -186,12 +197,11 @@ double GigeCamera::exposure() const { return impl_->exposure_s; }
 const Window& GigeCamera::region() const { return impl_->region; }
 
 void GigeCamera::setRegion(const Window& region) {
-  if (region == impl_->region) {
+  const Window& now = impl_->region;
+  if (region == now) {
     return;
   }
-  const bool same_size =
-      region.width == impl_->region.width && region.height == impl_->region.height;
-  ArvCamera* c = impl_->camera.get();
+  const bool same_size = region.width == now.width && region.height == now.height;
   ArvError error(impl_->options.device);
   if (same_size) {
     ArvDevice* device = impl_->device.get();
@@ -204,6 +214,7 @@ void GigeCamera::setRegion(const Window& region) {
     if (was_streaming) {
       stop();
     }
+    ArvCamera* c = impl_->camera.get();
     arv_camera_set_region(c, region.x, region.y, region.width, region.height, error.out());
     impl_->require(error, "refuses a region of " + std::to_string(region.width) + " x " +
                               std::to_string(region.height));
@@ -227,6 +238,7 @@ void GigeCamera::start() {
   ArvError error(impl_->options.device);
   arv_camera_start_acquisition(impl_->camera.get(), error.out());
   impl_->require(error, "does not start");
+  impl_->heard_s = steady_s();
   impl_->streaming = true;
 }
 

@@ -14,8 +14,13 @@ constexpr int kDrawingNice = 10;
 /// For this thread and the threads that it starts from now on (setpriority(2) on Linux: nice values
 /// are per thread). Where ticks have real-time priority they need no yielding.
 void yieldToTicks() {
-  static const bool ticks_are_first =
-      RaisedPriority(kTickRank).reached() == ThreadPriority::kRealTime;
+  static const bool ticks_are_first = [] {
+    bool permitted = false;
+    std::thread([&] {
+      permitted = RaisedPriority(kTickRank).reached() == ThreadPriority::kRealTime;
+    }).join();
+    return permitted;
+  }();
   if (!ticks_are_first) {
     ::setpriority(PRIO_PROCESS, 0, kDrawingNice);
   }

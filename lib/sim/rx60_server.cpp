@@ -10,7 +10,7 @@ namespace ringhook {
 namespace {
 
 constexpr std::int64_t kTickNs = 4'000'000;
-constexpr double kLongestTurn = 0.1;  // at work without a pause, with real-time priority [s]
+constexpr double kLongestTurn = 0.2;  // at work without a pause, with real-time priority [s]
 // Within a tick the streamer's task comes before the receivers', and so do its messages: a client
 // reads why motion is not possible before it reads that a command was refused.
 constexpr std::array<Rx60Socket, kRx60Sockets.size()> kSendingOrder = {
@@ -22,6 +22,13 @@ Time steadyNow() {
   const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
   return Time::fromNanoseconds(
       std::chrono::duration_cast<std::chrono::nanoseconds>(since_boot).count());
+}
+
+/// That this thread has had; time that the host took away does not count.
+Time processorTime() {
+  timespec used{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return Time::fromNanoseconds(used.tv_sec * 1'000'000'000 + used.tv_nsec);
 }
 
 }  // namespace
@@ -78,7 +85,7 @@ void Rx60Server::sleepUntil(Time wake) {
   }
   const std::int64_t left_ns =
       std::clamp<std::int64_t>(wake.nanoseconds() - now_.nanoseconds(), 0, kTickNs);
-  slept_ = left_ns > 0 ? wake : slept_;
+  slept_ = left_ns > 0 ? processorTime() : slept_;
   const timespec timeout{0, static_cast<long>(left_ns)};
   ::ppoll(sockets.data(), sockets.size(), &timeout, nullptr);
 }
@@ -152,8 +159,8 @@ bool Rx60Server::waitForClient(const std::atomic<bool>& stop) const {
 }
 
 /// A host that cannot keep up shall not be kept from everything else as well.
-void Rx60Server::shareProcessor(RaisedPriority& raised, Time now) {
-  if (raised.reached() == ThreadPriority::kRealTime && now - slept_ > kLongestTurn) {
+void Rx60Server::shareProcessor(RaisedPriority& raised) {
+  if (raised.reached() == ThreadPriority::kRealTime && processorTime() - slept_ > kLongestTurn) {
     raised.giveBack();
     priority_ = raised.reached();
     tell("no time left between ticks: real-time priority given back");
@@ -163,6 +170,7 @@ void Rx60Server::shareProcessor(RaisedPriority& raised, Time now) {
 void Rx60Server::run(const std::atomic<bool>& stop, double seconds) {
   RaisedPriority raised(kTickRank);
   priority_ = raised.reached();
+  slept_ = processorTime();
   started_ = steadyNow();
   const auto clock = [this] { return Time::fromSeconds(steadyNow() - started_); };
   while (!stop.load() && clock().seconds() < seconds) {
@@ -174,7 +182,7 @@ void Rx60Server::run(const std::atomic<bool>& stop, double seconds) {
     }
     if (now_ >= tickTime(tick_)) {
       runTick(now_);
-      shareProcessor(raised, now_);
+      shareProcessor(raised);
     }
   }
   for (const Rx60Socket socket : kRx60Sockets) {

@@ -76,7 +76,7 @@ class Rx60Server final : public Rx60Lines {
   [[nodiscard]] Wire& at(Rx60Socket socket) { return wires_[static_cast<std::size_t>(socket)]; }
   void tell(const std::string& what);
   void sleepUntil(Time wake);
-  void shareProcessor(RaisedPriority& raised, Time now);
+  void shareProcessor(RaisedPriority& raised);
   [[nodiscard]] Time nextEvent() const;
   void serve(Rx60Socket socket);
   void drop(Rx60Socket socket, const std::string& why);
@@ -91,7 +91,7 @@ class Rx60Server final : public Rx60Lines {
   Time now_;               ///< since run() began
   std::int64_t tick_ = 1;  ///< number of the next one, at tick_ * 4 ms
   std::int64_t late_ticks_ = 0;
-  Time slept_;  ///< when it last had time to wait
+  Time slept_;  ///< processor time of its thread when it last had time to wait
   ThreadPriority priority_ = ThreadPriority::kOrdinary;
 };
 

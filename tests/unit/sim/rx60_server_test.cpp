@@ -200,7 +200,7 @@ TEST_F(Rx60Tcp, WorkThatTakesAllTheTimeCostsTicksAndThePriority) {
       ++turns;
     }
   });
-  server.run(never, 0.3);
+  server.run(never, 0.5);
   EXPECT_GT(turns, 0U);
   EXPECT_GT(server.lateTicks(), controller.counts().ticks);
   EXPECT_NE(server.priority(), ThreadPriority::kRealTime);
