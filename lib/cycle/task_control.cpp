@@ -12,7 +12,7 @@ namespace {
 // What says nothing against the hook, and may be over when it is tried again.
 constexpr const char* kStale = "hook's estimate stale";
 constexpr const char* kOffPath = "ring off its path while lowering";
-constexpr int kMostTries = 3;
+constexpr int kMostTries = 2;
 
 }  // namespace
 

@@ -11,8 +11,8 @@
 /// What aborts an attempt is named: estimate stale or lost, alignment not reached in time, ring off
 /// its path while lowering, hook out of the arm's window, no hook. A stale estimate and a ring off
 /// its path say nothing against the hook: once the ring is away from it and the estimate fresh, the
-/// same hook is tried again (BackOff -> Wait), up to three times, if it can still be served in the
-/// arm's window. Reads no clock and no device.
+/// same hook is tried once more (BackOff -> Wait), if it can still be served in the arm's window.
+/// Reads no clock and no device.
 
 #include <optional>
 #include <string>

@@ -121,7 +121,7 @@ TEST(TaskAbort, RingOffItsPathIsNotLoweredFurther) {
   TaskBench bench(cell, MovingHook{});
   ASSERT_TRUE(bench.finish());
   EXPECT_EQ(bench.task.result().abort_reason, "ring off its path while lowering");
-  EXPECT_EQ(bench.task.result().tries, 3) << "and then it is given up";
+  EXPECT_EQ(bench.task.result().tries, 2) << "and then it is given up";
   EXPECT_TRUE(keptTheRing(bench));
 }
 
