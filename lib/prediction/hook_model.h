@@ -26,10 +26,14 @@
 
 namespace ringhook {
 
-enum class HookMotionModel { kConstantAcceleration, kPendulum };
+enum class HookMotionModel {
+  kConstantAcceleration,
+  kPendulum,          ///< linear, belt and swing apart, parameters given: the report's
+  kSphericalPendulum  ///< swing_law.h; not a model of this file, see hook_swing.h
+};
 
 struct HookFilterOptions {
-  HookMotionModel model = HookMotionModel::kPendulum;
+  HookMotionModel model = HookMotionModel::kSphericalPendulum;
 
   // The cell, from calibration and CAD.
   Pose fMc1 = Pose::Identity();              ///< left camera in the robot reference frame
@@ -63,6 +67,13 @@ struct HookFilterOptions {
   double swing_sigma = 0.2;               ///< amplitude of the swing, per axis [rad]
   double rest_sigma = 0.02;               ///< tilt of the hanging hook [rad]
   double longer_sigma_m = 0.01;           ///< pivot against pivot_o, along the shank [m]
+
+  // kSphericalPendulum learns the damping: standard deviations about damping/mass and about none.
+  double viscous_sigma = 0.05;         ///< [1/s]
+  double dry_sigma = 0.02;             ///< dry friction [rad/s^2]
+  double next_length_sigma = 0.012;    ///< of ln length from one hook to the next of its kind
+  double ready_sigma_m = 5e-4;         ///< ready() once a prediction 0.3 s ahead is this good
+  double neighbour_distance_m = 0.15;  ///< a fix so far off is of another hook
 
   // Judgement.
   double gate_probability = 0.9999;  ///< of a good fix to pass the NIS gate, in (0, 1)

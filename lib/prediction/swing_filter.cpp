@@ -16,6 +16,10 @@ constexpr double kSettledProbability = 0.99999;
 
 bool earlier(const SwingMeasurement& a, const SwingMeasurement& b) { return a.time < b.time; }
 
+bool isGood(const SwingFit& fit) {
+  return fit.chi_square < chiSquareQuantile(kSettledProbability, fit.residuals);
+}
+
 }  // namespace
 
 SwingFilter::SwingFilter(const SwingFilterOptions& options) : options_(options) {}
@@ -95,17 +99,24 @@ bool SwingFilter::fitStart() {
 /// True if one start explains all measurements since.
 bool SwingFilter::fitAll() {
   next_fit_ = std::max(first_.size() + 1, first_.size() * 3 / 2);
-  const std::optional<SwingFit> fit = bestFit();
+  std::optional<SwingFit> fit = bestFit();
+  if (options_.doubted_prior && !(fit && isGood(*fit))) {
+    options_.prior = *options_.doubted_prior;
+    options_.doubted_prior.reset();
+    fit = bestFit();
+  }
   if (!fit) {
     return false;
   }
-  const bool good = fit->chi_square < chiSquareQuantile(kSettledProbability, fit->residuals);
-  if (settled_ && !good) {
+  if (settled_ && !isGood(*fit)) {
     return true;  // outliers, or an event that will show
   }
   first_state_ = fit->start.mean;
   entries_.back().belief = fit->end;
-  settled_ = good && first_.size() >= kSettledEntries &&
+  if (!isGood(*fit)) {  // the law is not exact, and the misfit says by how much
+    entries_.back().belief.covariance *= fit->chi_square / fit->residuals;
+  }
+  settled_ = isGood(*fit) && first_.size() >= kSettledEntries &&
              fit->end.covariance(kSwingLogLength, kSwingLogLength) < kSettledLogLength;
   return true;
 }
@@ -163,6 +174,11 @@ void SwingFilter::trim() {
   while (entries_.size() > 2 && newest - entries_[1].measurement.time > options_.late_s) {
     entries_.pop_front();
   }
+}
+
+void SwingFilter::setSteady(const SwingNoise& noise, double memory_s) {
+  options_.steady = noise;
+  options_.law.memory_s = memory_s;
 }
 
 std::optional<SwingFilterState> SwingFilter::state() const {

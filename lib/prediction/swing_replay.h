@@ -39,7 +39,8 @@ struct SwingFilterOptions {
   SwingLaw law;
   Eigen::Vector3d pivot_o = Eigen::Vector3d::Zero();  ///< in o [m]; a point has its pivot at 0
   SwingPrior prior;                                   ///< before the first measurement
-  SwingNoise steady;  ///< process noise while the pivot travels evenly
+  std::optional<SwingPrior> doubted_prior;  ///< instead, once the measurements contradict `prior`
+  SwingNoise steady;                        ///< process noise while the pivot travels evenly
 
   /// While the pivot changes its speed: Singer's standard deviation per axis in f [m/s^2].
   Eigen::Vector3d changing_acceleration{0.05, 0.5, 0.05};

@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kTick = 0.005;
 
-HookFilterOptions defaultOptions() {
+HookFilterOptions linearOptions() {
   HookFilterOptions options;
+  options.model = HookMotionModel::kPendulum;
   options.fMc1 = testCamera();
   options.pivot_o = HookTruthOptions().pivot_o;
   return options;
@@ -48,7 +49,7 @@ double errorMm(const Outcome<HookEstimate>& estimate, const Pose& fMo) {
 
 TEST(HookFilterLife, WarmsUpByFixesAndTime) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   EXPECT_EQ(reasonOf(filter.predict(Time())), "no fix yet");
   EXPECT_FALSE(filter.state());
   scene.feed(filter, 0, 96);
@@ -61,7 +62,7 @@ TEST(HookFilterLife, WarmsUpByFixesAndTime) {
 
 TEST(HookFilterLife, RefusesBadFixesWithAReasonAndKeepsItsState) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   scene.feed(filter, 0, 200);
   const auto before = filter.state()->belief;
   EXPECT_EQ(reasonOf(filter.update(scene.fix(200))), "late or duplicate time stamp");
@@ -79,7 +80,7 @@ TEST(HookFilterLife, RefusesBadFixesWithAReasonAndKeepsItsState) {
 
 TEST(HookFilterLife, AGatedFixLeavesThePrediction) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   scene.feed(filter, 0, 300);
   const auto expected = filter.predict(Time::fromSeconds(304 * kTick));
   HookFix wrong = scene.fix(304);
@@ -94,7 +95,7 @@ TEST(HookFilterLife, AGatedFixLeavesThePrediction) {
 
 TEST(HookFilterLife, IsLostAfterRefusalsInARowAndRestarts) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   scene.feed(filter, 0, 300);
   for (int tick = 304; tick <= 320; tick += 4) {
     EXPECT_FALSE(filter.lost());
@@ -115,7 +116,7 @@ TEST(HookFilterLife, IsLostAfterRefusalsInARowAndRestarts) {
 
 TEST(HookFilterLife, AGoodFixBetweenForgivesRefusals) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   scene.feed(filter, 0, 300);
   for (int tick = 304; tick <= 380; tick += 4) {
     HookFix fix = scene.fix(tick);
@@ -129,7 +130,7 @@ TEST(HookFilterLife, AGoodFixBetweenForgivesRefusals) {
 
 TEST(HookFilterLife, TakesIrregularTimesAndAGapOfOneSecond) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   std::uniform_int_distribution<int> gap(1, 11);
   int tick = 0;
   for (; tick < 600; tick += gap(scene.random)) {
@@ -145,7 +146,7 @@ TEST(HookFilterLife, TakesIrregularTimesAndAGapOfOneSecond) {
 
 TEST(HookFilterLife, PredictsFromACopyAlsoSlightlyBackAndNotTooFar) {
   Scene scene;
-  HookFilter filter(defaultOptions());
+  HookFilter filter(linearOptions());
   scene.feed(filter, 0, 600);
   const auto copy = filter.state();
   ASSERT_TRUE(copy);
@@ -171,7 +172,7 @@ TEST(HookFilterLife, RefusesOptionsOutOfRangeByName) {
 class LongRun : public ::testing::TestWithParam<HookMotionModel> {};
 
 TEST_P(LongRun, CovarianceStaysSymmetricPositiveDefinite) {
-  HookFilterOptions options = defaultOptions();
+  HookFilterOptions options = linearOptions();
   options.model = GetParam();
   Scene scene;
   HookFix fix = scene.fix(0);
@@ -195,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Models, LongRun,
 
 // Truth drawn from the filter's own law: the mean of many NIS must lie in its 95 % band.
 TEST(HookFilterConsistency, NisIsInItsBandOnATruthOfItsOwnLaw) {
-  HookFilterOptions options = defaultOptions();
+  HookFilterOptions options = linearOptions();
   options.length_sigma_m = 0.0;  // the truth has exactly the filter's length
   options.swing_density = 1e-4;
   options.position_floor_m = options.rotation_floor_rad = 0.0;  // fixes say all of their noise

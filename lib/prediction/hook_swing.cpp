@@ -1,0 +1,102 @@
+#include "prediction/hook_swing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ringhook {
+namespace {
+
+constexpr double kAnywhere = 10.0;       // [m]; of the first pivot
+constexpr double kAnyYaw = 1.0;          // [rad]
+constexpr double kLengthRatio = 0.03;    // of the effective lengths about x and y, logarithm
+constexpr double kBetweenHooks = 0.3;    // of friction from hook to hook, relative
+constexpr double kBetweenSpeeds = 0.02;  // of the belt from hook to hook, relative
+constexpr double kRunning = 0.02;        // [m/s]; slower, the belt's speed says nothing
+
+void know(SwingPrior& prior, int place, double mean, double sigma) {
+  prior.mean(place) = mean;
+  prior.covariance(place, place) = sigma * sigma;
+}
+
+double sigmaOf(const SwingBelief& belief, int place) {
+  return std::sqrt(std::max(0.0, belief.covariance(place, place)));
+}
+
+SwingPrior priorOf(const HookFilterOptions& o) {
+  SwingPrior prior;
+  prior.mean.setZero();
+  prior.covariance.setZero();
+  const double w = std::sqrt(o.gravity / o.pendulum_length_m);
+  for (int axis = 0; axis < 3; ++axis) {
+    know(prior, kSwingPivot + axis, 0.0, kAnywhere);
+    know(prior, kSwingSpeed + axis, 0.0, o.speed_sigma);
+    know(prior, kSwingAcceleration + axis, 0.0, SwingNoise().pivot_acceleration(axis));
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    know(prior, kSwingAngle + axis, 0.0, o.swing_sigma);
+    know(prior, kSwingRate + axis, 0.0, w * o.swing_sigma);
+    know(prior, kSwingRest + axis, 0.0, o.rest_sigma);
+  }
+  know(prior, kSwingLogLength, std::log(o.pendulum_length_m),
+       o.length_sigma_m / o.pendulum_length_m);
+  know(prior, kSwingLengthRatio, 0.0, kLengthRatio);
+  know(prior, kSwingViscous, o.damping_kg_per_s / o.mass_kg, o.viscous_sigma);
+  know(prior, kSwingDry, 0.0, o.dry_sigma);
+  know(prior, kSwingLonger, 0.0, o.longer_sigma_m);
+  know(prior, kSwingYaw, 0.0, kAnyYaw);
+  return prior;
+}
+
+}  // namespace
+
+SwingFilterOptions swingOptions(const HookFilterOptions& options) {
+  SwingFilterOptions swing;
+  swing.law.gravity = options.gravity;
+  swing.pivot_o = options.pivot_o;
+  swing.prior = priorOf(options);
+  swing.steady.rest_density = options.rest_density;
+  swing.steady.yaw_density = options.yaw_density;
+  swing.gate = SwingGate(options.gate_probability);
+  return swing;
+}
+
+SwingFilterOptions swingOptionsAfter(const HookFilterOptions& options, const SwingBelief& learnt) {
+  SwingFilterOptions swing = swingOptions(options);
+  const auto carry = [&](int place, double spread) {
+    know(swing.prior, place, learnt.mean(place), std::hypot(sigmaOf(learnt, place), spread));
+  };
+  carry(kSwingLogLength, options.next_length_sigma);
+  carry(kSwingLengthRatio, options.next_length_sigma);
+  for (const int place : {int{kSwingViscous}, int{kSwingDry}}) {
+    carry(place, kBetweenHooks * std::abs(learnt.mean(place)));
+  }
+  const double speed = learnt.mean.segment<3>(kSwingSpeed).norm();
+  for (int axis = 0; axis < 3 && speed > kRunning; ++axis) {
+    carry(kSwingSpeed + axis, kBetweenSpeeds * speed);
+  }
+  swing.doubted_prior = swingOptions(options).prior;
+  return swing;
+}
+
+SwingMeasurement swingMeasurement(const HookFix& fix, const HookFilterOptions& options) {
+  SwingMeasurement measurement;
+  measurement.time = fix.time;
+  measurement.sight = SwingSight::kPose;
+  measurement.fMo = options.fMc1 * fix.c1Mo;
+  Covariance6 covariance = fix.covariance;
+  covariance.diagonal().head<3>().array() += std::pow(options.position_floor_m, 2);
+  covariance.diagonal().tail<3>().array() += std::pow(options.rotation_floor_rad, 2);
+  measurement.covariance = covariance;
+  return measurement;
+}
+
+HookEstimate swingEstimate(const SwingBelief& belief, Time time, const HookFilterOptions& options) {
+  HookEstimate estimate;
+  estimate.time = time;
+  estimate.fMo = swingPose(belief.mean, options.pivot_o);
+  estimate.twist_f = swingTwist(belief.mean, options.pivot_o);
+  estimate.covariance = carried(swingPoseJacobian(belief.mean, options.pivot_o), belief.covariance);
+  return estimate;
+}
+
+}  // namespace ringhook
