@@ -45,6 +45,12 @@ std::string whyNotOnBelt(const CellConfig& cell, const Pose& fMo, double toleran
   return {};
 }
 
+bool comesIn(const CellConfig& cell, const Pose& fMo, double tolerance_m) {
+  const double travel = hookTravel(cell, fMo);
+  return travel >= cell.belt.search_from_m - tolerance_m &&
+         travel <= cell.belt.search_to_m + tolerance_m;
+}
+
 std::vector<Pose> searchPoses(const CellConfig& cell) {
   std::vector<Pose> poses;
   const double swing = cell.hook.swing_max_rad;

@@ -28,6 +28,10 @@ double hookTravelSpeed(const CellConfig& cell, const HookEstimate& hook);
 /// `tolerance_m` from the belt's line, swing beyond 1.5 times the largest expected, hook turned.
 std::string whyNotOnBelt(const CellConfig& cell, const Pose& fMo, double tolerance_m);
 
+/// Whether the hook is where new ones are looked for, or `tolerance_m` before or behind: a camera
+/// in real time still shows some frames of the last hook after the windows were told to leave it.
+bool comesIn(const CellConfig& cell, const Pose& fMo, double tolerance_m);
+
 /// Poses that together span where a new hook is looked for: both ends of the search range, each
 /// hanging and swung fully to either side.
 std::vector<Pose> searchPoses(const CellConfig& cell);

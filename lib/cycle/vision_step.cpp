@@ -12,6 +12,7 @@ namespace ringhook {
 namespace {
 
 constexpr double kPivotTolerance = 0.06;  // [m]; a wrong detection is off by decimetres
+constexpr double kEntrance = 0.10;        // [m]; before and after the search travels
 constexpr double kErrorHorizon = 0.1;     // [s]; of the prediction error that is reported
 constexpr double kLongestInterval = 0.2;  // [s]; further ahead windows would only grow
 
@@ -97,7 +98,11 @@ Outcome<HookFix> VisionStep::see(const StereoFrame& frame) {
   if (!fix) {
     return fix;
   }
-  const std::string objection = whyNotOnBelt(cell_, fMc1_ * fix->c1Mo, kPivotTolerance);
+  const Pose fMo = fMc1_ * fix->c1Mo;
+  if (state_ == VisionState::kSearching && !comesIn(cell_, fMo, kEntrance)) {
+    return Refusal{"not a hook that comes in"};
+  }
+  const std::string objection = whyNotOnBelt(cell_, fMo, kPivotTolerance);
   return objection.empty() ? fix : Outcome<HookFix>(Refusal{objection});
 }
 

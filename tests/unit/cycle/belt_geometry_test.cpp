@@ -47,6 +47,20 @@ TEST(BeltGeometry, SwungHookIsTurnedAboutItsPivot) {
   EXPECT_TRUE(hookOnBelt(cell, 0.1, 0.07, -0.05).isApprox(expected, 1e-12));
 }
 
+TEST(BeltGeometry, OnlyHooksNearTheSearchTravelsComeIn) {
+  CellConfig cell = slantedCell();
+  cell.belt.search_from_m = -0.4;
+  cell.belt.search_to_m = -0.3;
+  const auto at = [&](double travel_m) {
+    const Vector3d pivot_f = cell.belt.pivot_start_f + travel_m * cell.belt.direction_f;
+    return hookAt(cell, pivot_f, AngleAxisd(0.08, Vector3d::UnitX()).toRotationMatrix());
+  };
+  EXPECT_TRUE(comesIn(cell, at(-0.41), kTolerance));
+  EXPECT_TRUE(comesIn(cell, at(-0.29), kTolerance));
+  EXPECT_FALSE(comesIn(cell, at(-0.43), kTolerance));
+  EXPECT_FALSE(comesIn(cell, at(-0.27), kTolerance));
+}
+
 TEST(BeltGeometry, TravelIsMeasuredAlongTheBeltWhateverTheSwing) {
   const CellConfig cell = slantedCell();
   for (const double travel : {-0.44, 0.0, 0.3}) {
