@@ -165,22 +165,22 @@ std::vector<std::string> chosenModels(const std::vector<std::string>& names) {
   return names;
 }
 
-Model makeTunedModel(const std::string& name, const Trajectory& trajectory,
-                     const std::vector<HorizonTruth>& truth, const ModelSettings& settings,
-                     double warm_up_s) {
+TunedModel makeTunedModel(const std::string& name, const Trajectory& trajectory,
+                          const std::vector<HorizonTruth>& truth, const ModelSettings& settings,
+                          double warm_up_s) {
   const Entry& entry = *std::find_if(kEntries.begin(), kEntries.end(),
                                      [&name](const Entry& one) { return name == one.name; });
   const Making making{trajectory.kind, medianStep(trajectory), settings};
   const int count = isAngular(trajectory.kind) ? entry.angle_densities : entry.point_densities;
   if (count == 0) {
-    return entry.make(making, {});
+    return {entry.make(making, {}), {}};
   }
   const Densities densities(static_cast<std::size_t>(count), 1.0);
   const Making known = started(entry, making, densities, trajectory);
   const Densities best = descend(densities, [&](const Densities& trial) {
     return badness(*entry.make(known, trial), trajectory, truth, warm_up_s);
   });
-  return entry.make(making, best);
+  return {entry.make(making, best), best};
 }
 
 }  // namespace ringhook

@@ -28,12 +28,17 @@ struct ModelSettings {
 /// "all" or a list; throws InputError listing the known names for another, or for one named twice.
 [[nodiscard]] std::vector<std::string> chosenModels(const std::vector<std::string>& names);
 
-/// The model, ready for the first sample of `trajectory`; a peer tuned on all of it. Precondition:
-/// `name` is known.
-[[nodiscard]] std::unique_ptr<MotionModel> makeTunedModel(const std::string& name,
-                                                          const Trajectory& trajectory,
-                                                          const std::vector<HorizonTruth>& truth,
-                                                          const ModelSettings& settings,
-                                                          double warm_up_s);
+/// A model, ready for the first sample.
+struct TunedModel {
+  std::unique_ptr<MotionModel> model;
+  /// Chosen for it: white acceleration [m^2/s^3 or rad^2/s^3] or jerk [.../s^5]; of a pendulum: of
+  /// swing, pivot and height. Empty: nothing was.
+  std::vector<double> densities;
+};
+
+/// The model for `trajectory`; a peer tuned on all of it. Precondition: `name` is known.
+[[nodiscard]] TunedModel makeTunedModel(const std::string& name, const Trajectory& trajectory,
+                                        const std::vector<HorizonTruth>& truth,
+                                        const ModelSettings& settings, double warm_up_s);
 
 }  // namespace ringhook

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "core/number_text.h"
@@ -45,6 +46,17 @@ void checkOptions(const Trajectory& trajectory, const TrajectoryEvaluationOption
   }
 }
 
+/// As in "noise densities chosen in hindsight: 0.1, 1000, 1".
+std::string chosenNoise(const std::vector<double>& densities) {
+  std::string text;
+  for (const double density : densities) {
+    char number[32];
+    std::snprintf(number, sizeof(number), "%.3g", density);
+    text += (text.empty() ? "noise densities chosen in hindsight: " : ", ") + std::string(number);
+  }
+  return text;
+}
+
 }  // namespace
 
 TrajectoryResult evaluateTrajectory(const Trajectory& trajectory,
@@ -66,8 +78,10 @@ TrajectoryResult evaluateTrajectory(const Trajectory& trajectory,
   }
   const ModelSettings settings{result.noise, options.length_m, 0.0};
   for (const auto& name : names) {
-    const auto model = makeTunedModel(name, judge, result.truth, settings, options.warm_up_s);
-    result.runs.push_back(runModel(*model, judge, result.truth));
+    const TunedModel tuned = makeTunedModel(name, judge, result.truth, settings, options.warm_up_s);
+    result.runs.push_back(runModel(*tuned.model, judge, result.truth));
+    std::string& note = result.runs.back().note;
+    note += (note.empty() || tuned.densities.empty() ? "" : "; ") + chosenNoise(tuned.densities);
   }
   const std::size_t first = firstJudged(judge, result.runs, options.warm_up_s);
   result.judged_from_s = judge.times[std::min(first, judge.times.size() - 1)] - judge.times.front();

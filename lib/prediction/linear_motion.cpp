@@ -18,6 +18,7 @@ constexpr double kHasty = 200.0;  // [rad/s^2 or m/s^2]
 /// Each predicted number is measured itself.
 std::vector<AxisPlace<1>> ownPlaces(TrajectoryKind kind) {
   std::vector<AxisPlace<1>> places;
+  places.reserve(static_cast<std::size_t>(predictedSize(kind)));
   for (int i = 0; i < predictedSize(kind); ++i) {
     places.push_back({{i}, i});
   }

@@ -196,7 +196,8 @@ TEST(TunedModels, PredictNoWorseThanWithAnyDensityOfAGrid) {
     return summariseRuns(swing, truth, runs, 1.0).front().horizons.front().rms;
   };
   const auto tuned = makeTunedModel("constant-acceleration", swing, truth, settings, 1.0);
-  const double best = rmsOf(*tuned);
+  const double best = rmsOf(*tuned.model);
+  EXPECT_EQ(tuned.densities.size(), 1U);
   for (double density = 1e-4; density < 1e5; density *= 10.0) {
     EXPECT_LE(best, 1.0001 * rmsOf(*makeConstantAcceleration(swing.kind, {1e-3, density})));
   }
@@ -245,6 +246,8 @@ TEST(TrajectoryOutputs, HoldTheKeysThatProgramsRelyOn) {
   const auto json = nlohmann::json::parse(trajectoryJson(result));
   EXPECT_EQ(json["model"], motionModelNames().front());
   ASSERT_EQ(json["horizons"].size(), 3U);
+  EXPECT_THAT(json["models"]["exact-pendulum"]["note"].get<std::string>(),
+              AllOf(HasSubstr("from the first"), HasSubstr("chosen in hindsight: ")));
   EXPECT_EQ(json["horizons"][1]["horizon_s"], 0.2);
   EXPECT_EQ(json["horizons"][1]["unit"], "rad");
   EXPECT_GT(json["horizons"][1]["samples"], 100);
