@@ -1,6 +1,9 @@
 #include "app/simulate_cell.h"
 
+#include <malloc.h>
+
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -99,9 +102,17 @@ void printRings(const CellTruth& cell) {
   std::printf("%d rings hang, judged by the simulated physics\n", hanging);
 }
 
+/// Freed memory stays with the program: to hand it back, or to fetch it anew for every picture, a
+/// drawing thread would hold what the ticks need as well, and may lose its processor meanwhile.
+void keepMemory() {
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+}
+
 }  // namespace
 
 nlohmann::ordered_json serveCell(const CellJob& job) {
+  keepMemory();
   const CellConfig cell = networkCell(job.cell);
   const Scenario scenario = loadScenario(scenarioFile(cell, job.scenario));
   const StereoRig true_rig = disturbedRig(loadRig(cell.rig), job.seed, scenario.calibration);
