@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "prediction/linear_motion.h"
 #include "prediction/pendulum_motion.h"
+#include "prediction/swing_motion.h"
 
 namespace ringhook {
 namespace {
@@ -50,6 +51,10 @@ Model exactPendulum(const Making& making, const Densities& densities) {
   return makeExactPendulum(making.kind, pendulumOptions(making, densities));
 }
 
+Model sphericalPendulum(const Making& making, const Densities&) {
+  return makeSwingMotion(making.kind, {making.settings.sample_sigma});
+}
+
 struct Entry {
   const char* name;
   Model (*make)(const Making&, const Densities&);
@@ -57,7 +62,8 @@ struct Entry {
   int point_densities;  ///< of a model of points
 };
 
-constexpr std::array<Entry, 4> kEntries = {{{"exact-pendulum", exactPendulum, 1, 3},
+constexpr std::array<Entry, 5> kEntries = {{{"spherical-pendulum", sphericalPendulum, 0, 0},
+                                            {"exact-pendulum", exactPendulum, 1, 3},
                                             {"report-pendulum", reportPendulum, 1, 3},
                                             {"constant-acceleration", constantAcceleration, 1, 1},
                                             {"constant-velocity", constantVelocity, 1, 1}}};

@@ -40,6 +40,10 @@ class SwingFilter {
   /// "outside the gate": the belief is predicted to the measurement's time.
   Outcome<SwingUpdate> update(const SwingMeasurement& measurement);
 
+  /// From the next measurement on: process noise of a pivot that travels evenly, and the memory of
+  /// its acceleration [s].
+  void setSteady(const SwingNoise& noise, double memory_s);
+
   /// Nothing before the first measurement.
   [[nodiscard]] std::optional<SwingFilterState> state() const;
   [[nodiscard]] SwingMode mode() const { return mode_; }
