@@ -155,7 +155,7 @@ struct EdgeTracker::Impl {
     return seen;
   }
 
-  std::optional<Refusal> disbelief() const {
+  [[nodiscard]] std::optional<Refusal> disbelief() const {
     if (quality.good_sites < options.min_sites) {
       return Refusal{"too few edge sites"};
     }

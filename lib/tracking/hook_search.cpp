@@ -60,12 +60,12 @@ class Search {
     }
   }
 
-  Pose c1Mo(const Place& place) const {
+  [[nodiscard]] Pose c1Mo(const Place& place) const {
     return space_.fMc1.inverse() * hookAt(space_, place[0], place[1], place[2], place[3]);
   }
 
   /// The best places of the grid, no two of them next to each other.
-  std::vector<Match> coarse() const {
+  [[nodiscard]] std::vector<Match> coarse() const {
     std::vector<Match> all;
     const Place step = coarseStep();
     for (double s = space_.travel_from_m; s <= space_.travel_to_m; s += step[0]) {
@@ -90,7 +90,7 @@ class Search {
   }
 
   /// Climbs along the coordinates and their sums with steps that shrink, from the best length.
-  Match refine(const Match& from) const {
+  [[nodiscard]] Match refine(const Match& from) const {
     Match best{from.place, scoreOf(fine_, fine_samples_, c1Mo(from.place))};
     for (double longer = -space_.longer; longer <= space_.longer; longer += kLengthStepM) {
       tryPlace(Place(from.place[0], from.place[1], from.place[2], longer), best);
@@ -116,7 +116,7 @@ class Search {
   }
 
   /// The last two turn the hook about its J: the pivot moves on while the swing falls back.
-  std::vector<Place> ways() const {
+  [[nodiscard]] std::vector<Place> ways() const {
     const double arm = space_.pivot_o.norm();
     const double ratio = space_.travel_step_m / (arm * space_.swing_step);
     return {{1, 0, 0, 0}, {0, 1, 0, 0},     {0, 0, 1, 0},

@@ -67,8 +67,8 @@ struct MarkerTracker::Impl {
 
   /// Believable tags of the plate, one per id. An id seen twice is believed only where one of the
   /// two is clearly the better decoding.
-  std::vector<TagDetection> believable(std::vector<TagDetection> tags,
-                                       const GrayImage& image) const {
+  [[nodiscard]] std::vector<TagDetection> believable(std::vector<TagDetection> tags,
+                                                     const GrayImage& image) const {
     std::erase_if(tags, [&](const TagDetection& t) {
       return plate.find(t.id) == nullptr || t.hamming > options.max_hamming ||
              t.decision_margin < options.min_decision_margin || !insideImage(t, image);

@@ -41,7 +41,7 @@ class EdgeGraph {
 
  private:
   /// The patches at an edge, in order.
-  std::vector<int> patchesAt(const Edge& edge) const {
+  [[nodiscard]] std::vector<int> patchesAt(const Edge& edge) const {
     std::vector<int> list;
     for (const FaceSide& side : patches_.feature_edges.at(edge)) {
       list.push_back(patches_.patch_of_facet[at(patches_.facet_of_face[at(side.face)])]);
@@ -51,7 +51,7 @@ class EdgeGraph {
   }
 
   /// Two edges of the same patches meet here, and nothing else.
-  bool passable(int point) const {
+  [[nodiscard]] bool passable(int point) const {
     const std::vector<int>& next = neighbours_.at(point);
     return next.size() == 2 &&
            patchesAt(edgeOf(point, next[0])) == patchesAt(edgeOf(point, next[1]));

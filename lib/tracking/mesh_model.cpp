@@ -125,6 +125,7 @@ class ModelBuilder {
     }
     ++(twice_area < 0.0 ? model_.hole_faces : model_.flat_faces);
     std::vector<int> face;
+    face.reserve(loop.size());
     for (const int point : loop) {
       face.push_back(numberOf(point));
     }
@@ -151,7 +152,7 @@ class ModelBuilder {
       return;
     }
     const int apex = static_cast<int>(model_.points.size());
-    model_.points.push_back(mesh_.points[at(start)] + 0.5 * along + width * inward.normalized());
+    model_.points.emplace_back(mesh_.points[at(start)] + 0.5 * along + width * inward.normalized());
     // Numbered before the corners are, since that may add points, too.
     const int first = numberOf(start);
     const int second = numberOf(end);
