@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <ranges>
 #include <set>
 
 #include "core/error.h"
@@ -53,10 +54,7 @@ void cleanCorners(std::vector<int>& corners) {
   for (std::size_t i = 0; i < corners.size() && corners.size() >= 3;) {
     const std::size_t n = corners.size();
     const std::size_t next = (i + 1) % n;
-    if (corners[i] == corners[next]) {
-      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(next));
-      i = 0;
-    } else if (corners[i] == corners[(i + 2) % n]) {
+    if (corners[i] == corners[next] || corners[i] == corners[(i + 2) % n]) {
       corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(next));
       i = 0;
     } else {
@@ -124,6 +122,7 @@ std::vector<int> pointsWithin(const Mesh& mesh, const std::vector<int>& by_x, in
   }
   std::sort(found.begin(), found.end());
   std::vector<int> points;
+  points.reserve(found.size());
   for (const auto& [s, point] : found) {
     points.push_back(point);
   }
@@ -156,8 +155,8 @@ void divideSides(Mesh& mesh, double tolerance, RepairReport& report) {
   }
   for (const auto& [face, by_corner] : inserts) {
     std::vector<int>& corners = mesh.faces[at(face)].corners;
-    for (auto it = by_corner.rbegin(); it != by_corner.rend(); ++it) {
-      corners.insert(corners.begin() + it->first + 1, it->second.begin(), it->second.end());
+    for (const auto& [corner, points] : std::views::reverse(by_corner)) {
+      corners.insert(corners.begin() + corner + 1, points.begin(), points.end());
       ++report.divided_sides;
     }
     cleanCorners(corners);
