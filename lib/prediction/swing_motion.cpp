@@ -211,7 +211,7 @@ class SwingMotion final : public MotionModel {
   void restart(Time time, const Eigen::VectorXd& value) {
     refused_in_a_row_ = 0;
     SwingFilterOptions again = swing_;
-    const SwingBelief& learnt = filter_.state()->belief;
+    const SwingBelief learnt = filter_.state()->belief;
     const auto carry = [&](int place, double spread) {
       const double wide = std::sqrt(again.prior.covariance(place, place));
       know(again.prior, place, learnt.mean(place),
