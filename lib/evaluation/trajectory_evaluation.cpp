@@ -127,7 +127,7 @@ ModelRun runModel(MotionModel& model, const Trajectory& trajectory,
   ModelRun run;
   run.name = model.name();
   for (const HorizonTruth& one : truth) {
-    run.errors.push_back(Eigen::MatrixXd::Constant(one.ahead.rows(), one.ahead.cols(), kNone));
+    run.errors.emplace_back(Eigen::MatrixXd::Constant(one.ahead.rows(), one.ahead.cols(), kNone));
   }
   for (std::size_t i = 0; i < trajectory.times.size(); ++i) {
     const Time now = trajectory.times[i];

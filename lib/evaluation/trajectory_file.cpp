@@ -19,6 +19,13 @@ const Names kPoint = {"x", "y", "z"};
 const Names kPivot = {"pivot_x", "pivot_y", "pivot_z"};
 constexpr auto kTimeName = "time_s";
 
+bool isKnown(const std::string& name) {
+  const auto among = [&name](const Names& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return among(kAngles) || among(kPoint) || among(kPivot) || name == kTimeName;
+}
+
 /// The format's names as this file spells them.
 class Columns {
  public:
@@ -26,10 +33,7 @@ class Columns {
           std::string file)
       : table_(table), spelled_(spelled), file_(std::move(file)) {
     for (const auto& [name, column] : spelled) {
-      const auto known = [&name](const Names& names) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-      };
-      if (!known(kAngles) && !known(kPoint) && !known(kPivot) && name != kTimeName) {
+      if (!isKnown(name)) {
         throw InputError("--columns " + name + "=" + column +
                          ": expected one of time_s, angle_rad, angle2_rad, x, y, z, pivot_x, "
                          "pivot_y, pivot_z before the =");
