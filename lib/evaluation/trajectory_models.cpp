@@ -143,6 +143,7 @@ Densities descend(Densities densities, const Cost& cost) {
 const std::vector<std::string>& motionModelNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
+    all.reserve(kEntries.size());
     for (const Entry& entry : kEntries) {
       all.emplace_back(entry.name);
     }
