@@ -17,7 +17,8 @@ constexpr double kAhead = 0.3;   // [s]
 
 /// A hook of the default kind that swings by 5 degrees in x and 4 in y below a belt.
 SwingVector hookAt(const HookFilterOptions& options, double t) {
-  SwingVector state = swingOptions(options).prior.mean;
+  static const SwingVector hanging = swingOptions({}).prior.mean;
+  SwingVector state = hanging;
   const double w = std::sqrt(options.gravity / options.pendulum_length_m);
   state.segment<3>(kSwingPivot) << 0.42, -0.5 + 0.2 * t, 1.05;
   state(kSwingSpeed + 1) = 0.2;
