@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "evaluation/noise_experiment.h"
 #include "evaluation/pendulum_experiment.h"
+#include "evaluation/tracking_experiment.h"
 
 namespace ringhook {
 namespace {
@@ -42,12 +43,24 @@ void runNoise(const ExperimentFlags& flags) {
               noiseTable(experiment).c_str(), folder.string().c_str());
 }
 
+void runTracking(const ExperimentFlags& flags) {
+  JsonFile json(flags.json);
+  const TrackingExperiment experiment = runTrackingExperiment();
+  const fs::path folder =
+      flags.out.empty() ? fs::path("out/experiment-tracking") : fs::path(flags.out);
+  writeTrackingOutputs(folder, experiment);
+  json.commit(trackingJson(experiment));
+  std::printf("%swritten: %s (report.html, summary.json, steps.csv)\n",
+              trackingTable(experiment).c_str(), folder.string().c_str());
+}
+
 struct Experiment {
   const char* name;
   void (*run)(const ExperimentFlags&);
 };
 
-constexpr Experiment kExperiments[] = {{"pendulum", runPendulum}, {"noise", runNoise}};
+constexpr Experiment kExperiments[] = {
+    {"pendulum", runPendulum}, {"noise", runNoise}, {"tracking", runTracking}};
 
 void runExperiment(const ExperimentFlags& flags) {
   std::string known;
@@ -69,8 +82,9 @@ void addExperimentCommand(CLI::App& evaluate) {
       evaluate, "experiment", "Repeat an experiment of the 2007 report beside its own numbers.",
       "pendulum: 1 m, 1 kg, released at 1 rad, D = 0 and 0.5; and the cell's hook.\n"
       "noise: the step-wise motion, predicted with other and other noise values.\n"
+      "tracking: 21 simulated pairs of pictures, positions and one-step predictions.\n"
       "Example: ringhook evaluate experiment pendulum --json pendulum.json");
-  command.add_option("NAME", flags->name, "pendulum or noise")->required();
+  command.add_option("NAME", flags->name, "pendulum, noise or tracking")->required();
   command.add_option("--out", flags->out, "folder for the results (out/experiment-NAME)");
   addJsonOption(command, flags->json, "also write summary.json to this file");
   command.callback([flags] { runExperiment(*flags); });
