@@ -113,9 +113,6 @@ bool SwingFilter::fitAll() {
   }
   first_state_ = fit->start.mean;
   entries_.back().belief = fit->end;
-  if (!isGood(*fit)) {  // the law is not exact, and the misfit says by how much
-    entries_.back().belief.covariance *= fit->chi_square / fit->residuals;
-  }
   settled_ = isGood(*fit) && first_.size() >= kSettledEntries &&
              fit->end.covariance(kSwingLogLength, kSwingLogLength) < kSettledLogLength;
   return true;
