@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "app/options.h"
+#include "app/progress.h"
 #include "core/error.h"
 #include "evaluation/noise_experiment.h"
 #include "evaluation/pendulum_experiment.h"
+#include "evaluation/prediction_experiment.h"
 #include "evaluation/tracking_experiment.h"
 
 namespace ringhook {
@@ -19,6 +21,7 @@ struct ExperimentFlags {
   std::string name;
   std::string out;
   std::string json;
+  int seeds = 0;  ///< 0: as many as the experiment takes by itself
 };
 
 void runPendulum(const ExperimentFlags& flags) {
@@ -43,6 +46,23 @@ void runNoise(const ExperimentFlags& flags) {
               noiseTable(experiment).c_str(), folder.string().c_str());
 }
 
+void runPrediction(const ExperimentFlags& flags) {
+  JsonFile json(flags.json);
+  PredictionCounts counts;
+  if (flags.seeds > 0) {
+    counts.seeds = counts.stops = counts.consistency = flags.seeds;
+  }
+  Progress progress("predicting");
+  const PredictionExperiment experiment =
+      runPredictionExperiment(counts, [&](double done) { progress.show(done); });
+  const fs::path folder =
+      flags.out.empty() ? fs::path("out/experiment-prediction") : fs::path(flags.out);
+  writePredictionOutputs(folder, experiment);
+  json.commit(predictionJson(experiment));
+  std::printf("%swritten: %s (report.html, summary.json, stop.csv)\n",
+              predictionTable(experiment).c_str(), folder.string().c_str());
+}
+
 void runTracking(const ExperimentFlags& flags) {
   JsonFile json(flags.json);
   const TrackingExperiment experiment = runTrackingExperiment();
@@ -59,8 +79,10 @@ struct Experiment {
   void (*run)(const ExperimentFlags&);
 };
 
-constexpr Experiment kExperiments[] = {
-    {"pendulum", runPendulum}, {"noise", runNoise}, {"tracking", runTracking}};
+constexpr Experiment kExperiments[] = {{"pendulum", runPendulum},
+                                       {"noise", runNoise},
+                                       {"prediction", runPrediction},
+                                       {"tracking", runTracking}};
 
 void runExperiment(const ExperimentFlags& flags) {
   std::string known;
@@ -80,12 +102,19 @@ void addExperimentCommand(CLI::App& evaluate) {
   auto flags = std::make_shared<ExperimentFlags>();
   CLI::App& command = addCommand(
       evaluate, "experiment", "Repeat an experiment of the 2007 report beside its own numbers.",
-      "pendulum: 1 m, 1 kg, released at 1 rad, D = 0 and 0.5; and the cell's hook.\n"
-      "noise: the step-wise motion, predicted with other and other noise values.\n"
-      "tracking: 21 simulated pairs of pictures, positions and one-step predictions.\n"
+      "pendulum: 1 m, 1 kg, released at 1 rad, D = 0 and 0.5; and the cell's "
+      "hook.\n"
+      "noise: the step-wise motion, predicted with other and other noise "
+      "values.\n"
+      "prediction: simulated hooks that travel and swing, seen for 3 s; a belt "
+      "that stops.\n"
+      "tracking: 21 simulated pairs of pictures, positions and one-step "
+      "predictions.\n"
       "Example: ringhook evaluate experiment pendulum --json pendulum.json");
-  command.add_option("NAME", flags->name, "pendulum, noise or tracking")->required();
+  command.add_option("NAME", flags->name, "pendulum, noise, prediction or tracking")->required();
   command.add_option("--out", flags->out, "folder for the results (out/experiment-NAME)");
+  command.add_option("--seeds", flags->seeds, "prediction: runs of each kind (200, 500 and 1000)")
+      ->check(CLI::Range(1, 1000000));
   addJsonOption(command, flags->json, "also write summary.json to this file");
   command.callback([flags] { runExperiment(*flags); });
 }

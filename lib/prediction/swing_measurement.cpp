@@ -2,14 +2,28 @@
 
 #include <Eigen/Cholesky>
 
-#include "prediction/hanging_pose.h"
-
 namespace ringhook {
 namespace {
 
-HangingPose hangingOf(const SwingVector& s) {
-  return {s.segment<3>(kSwingPivot), s(kSwingAngle) + s(kSwingRest),
-          s(kSwingAngle + 1) + s(kSwingRest + 1), s(kSwingYaw)};
+Eigen::Matrix3d turn(double angle, int axis) {
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+}
+
+/// The turns that make up fRo, one after the other.
+struct SwingTurns {
+  Eigen::Matrix3d Rx;     ///< swing_x
+  Eigen::Matrix3d Rxy;    ///< and swing_y: what gravity knows
+  Eigen::Matrix3d Rrest;  ///< and rest_x
+  Eigen::Matrix3d fRo;    ///< and rest_y, yaw
+};
+
+SwingTurns turnsOf(const SwingVector& s) {
+  SwingTurns turns;
+  turns.Rx = turn(s(kSwingAngle), 0);
+  turns.Rxy = turns.Rx * turn(s(kSwingAngle + 1), 1);
+  turns.Rrest = turns.Rxy * turn(s(kSwingRest), 0);
+  turns.fRo = turns.Rrest * turn(s(kSwingRest + 1), 1) * turn(s(kSwingYaw), 2);
+  return turns;
 }
 
 Eigen::Vector3d pivotOf(const SwingVector& s, const Eigen::Vector3d& pivot_o) {
@@ -53,24 +67,37 @@ int swingSightSize(SwingSight sight) {
 }
 
 Pose swingPose(const SwingVector& state, const Eigen::Vector3d& pivot_o) {
-  return poseFromHanging(hangingOf(state), pivotOf(state, pivot_o));
+  Pose fMo = Pose::Identity();
+  fMo.linear() = turnsOf(state).fRo;
+  fMo.translation() = state.segment<3>(kSwingPivot) - fMo.linear() * pivotOf(state, pivot_o);
+  return fMo;
 }
 
 Twist swingTwist(const SwingVector& state, const Eigen::Vector3d& pivot_o) {
-  const Eigen::Vector3d rates(state(kSwingRate), state(kSwingRate + 1), 0.0);
-  return hangingTwist(hangingOf(state), pivotOf(state, pivot_o), state.segment<3>(kSwingSpeed),
-                      rates);
+  const SwingTurns turns = turnsOf(state);
+  const Eigen::Vector3d w_f =
+      state(kSwingRate) * Eigen::Vector3d::UnitX() + state(kSwingRate + 1) * turns.Rx.col(1);
+  Twist twist;
+  twist << state.segment<3>(kSwingSpeed) - w_f.cross(turns.fRo * pivotOf(state, pivot_o)), w_f;
+  return twist;
 }
 
 Eigen::Matrix<double, 6, kSwingStates> swingPoseJacobian(const SwingVector& state,
                                                          const Eigen::Vector3d& pivot_o) {
-  const Eigen::Matrix<double, 6, 6> hanging =
-      hangingJacobian(hangingOf(state), pivotOf(state, pivot_o));
+  const SwingTurns turns = turnsOf(state);
+  const Eigen::Matrix3d oRf = turns.fRo.transpose();
   Eigen::Matrix<double, 6, kSwingStates> J = Eigen::Matrix<double, 6, kSwingStates>::Zero();
-  J.middleCols<3>(kSwingPivot) = hanging.leftCols<3>();
-  J.middleCols<2>(kSwingAngle) = hanging.middleCols<2>(3);
-  J.middleCols<2>(kSwingRest) = hanging.middleCols<2>(3);
-  J.col(kSwingYaw) = hanging.col(5);
+  J.block<3, 3>(0, kSwingPivot) = oRf;
+  J.block<3, 1>(3, kSwingAngle) = oRf.col(0);
+  J.block<3, 1>(3, kSwingAngle + 1) = oRf * turns.Rx.col(1);
+  J.block<3, 1>(3, kSwingRest) = oRf * turns.Rxy.col(0);
+  J.block<3, 1>(3, kSwingRest + 1) = oRf * turns.Rrest.col(1);
+  J(5, kSwingYaw) = 1.0;
+  const Eigen::Matrix3d lever = skew(pivotOf(state, pivot_o));
+  for (const int place :
+       {int{kSwingAngle}, kSwingAngle + 1, int{kSwingRest}, kSwingRest + 1, int{kSwingYaw}}) {
+    J.block<3, 1>(0, place) = lever * J.block<3, 1>(3, place);
+  }
   J(2, kSwingLonger) = -1.0;  // hanging longer lowers o along its own z
   return J;
 }

@@ -17,6 +17,7 @@ constexpr int kLostAfter = 15;            // refusals in a row
 constexpr int kPivotLostAfter = 5;        // of a pivot that is seen: both jumped
 constexpr double kDoubtedLength = 0.02;   // of what was learnt before the track was lost, relative
 constexpr double kDoubtedFriction = 0.5;  // likewise
+constexpr double kOffLine = 0.1;          // [rad]; a tracked point is seldom right below the pivot
 constexpr double kMiddleLength = 0.5;     // [m]; between 0.05 and 5
 // No pendulum is one angle: its encoder's disc runs out by 10 um at a radius of 30 mm, its axle has
 // play. White in the filter, in truth slow: below it no measurement is better than another.
@@ -70,6 +71,7 @@ SwingPrior pointPrior(TrajectoryKind kind) {
   for (int axis = 0; axis < 2; ++axis) {
     know(prior, kSwingAngle + axis, 0.0, 0.5);
     know(prior, kSwingRate + axis, 0.0, 3.0);
+    know(prior, kSwingRest + axis, 0.0, kind == TrajectoryKind::kPoint ? kOffLine : 0.0);
   }
   know(prior, kSwingLonger, 0.5, kind == TrajectoryKind::kPoint ? 1.0 : 10.0);
   prior.reach_sigma = 0.2;

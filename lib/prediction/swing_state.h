@@ -6,9 +6,10 @@
 /// "Stochastic Processes and Filtering Theory", 1970, section 8.4); what is known beforehand has a
 /// variance of zero, and then no measurement moves it.
 ///
-/// Geometry: fRo = Rx(swing_x + rest_x) Ry(swing_y + rest_y) Rz(yaw), the order of a universal
-/// joint whose first axis is x_f. A hook may hang tilted at rest; gravity knows of the swing angles
-/// alone. The tracked point o lies below the pivot: fPo = pivot - fRo * (pivot_o + (0, 0, longer)).
+/// Geometry: fRo = Rx(swing_x) Ry(swing_y) Rx(rest_x) Ry(rest_y) Rz(yaw). The first two turns are
+/// those of a universal joint whose first axis is x_f, and all that gravity knows of; the rest is
+/// how the model's frame o lies in the body that swings, whose centre of mass is below its pivot.
+/// The tracked point o: fPo = pivot - fRo * (pivot_o + (0, 0, longer)).
 
 #include <Eigen/Core>
 
