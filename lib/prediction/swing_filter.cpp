@@ -82,21 +82,23 @@ Outcome<SwingUpdate> SwingFilter::insertLate(const SwingMeasurement& measurement
                      SwingEvent::kNone};
 }
 
-/// The batch fit of all measurements so far, when it is due. True if the belief stands.
+/// The batch fit of all measurements so far, when it is due. True if a start is known.
 bool SwingFilter::fitStart() {
   if (first_.empty()) {
     return true;
   }
-  const bool due = first_.size() >= next_fit_ || !entries_.back().taken;
-  const bool fits = !due || fitAll();
+  if (first_.size() >= next_fit_ || !entries_.back().taken) {
+    fitAll();
+  }
   if (first_.back().time - first_.front().time >= options_.batch_s) {
     first_.clear();
     settled_ = true;
   }
-  return fits;
+  return first_state_.has_value();
 }
 
-/// True if one start explains all measurements since.
+/// True if one start explains all measurements since; then the belief is what follows from it. A
+/// start that was good before is not given up for a fit that is not: outliers, or an event.
 bool SwingFilter::fitAll() {
   next_fit_ = std::max(first_.size() + 1, first_.size() * 3 / 2);
   std::optional<SwingFit> fit = bestFit();
@@ -105,17 +107,15 @@ bool SwingFilter::fitAll() {
     options_.doubted_prior.reset();
     fit = bestFit();
   }
-  if (!fit) {
+  const bool good = fit && isGood(*fit);
+  if (!fit || (settled_ && !good)) {
     return false;
-  }
-  if (settled_ && !isGood(*fit)) {
-    return true;  // outliers, or an event that will show
   }
   first_state_ = fit->start.mean;
   entries_.back().belief = fit->end;
-  settled_ = isGood(*fit) && first_.size() >= kSettledEntries &&
+  settled_ = good && first_.size() >= kSettledEntries &&
              fit->end.covariance(kSwingLogLength, kSwingLogLength) < kSettledLogLength;
-  return true;
+  return good;
 }
 
 /// From a new guess and from the last fit's state: the better of both.
@@ -140,6 +140,9 @@ std::optional<SwingFit> SwingFilter::bestFit() const {
 SwingEvent SwingFilter::lookForCause() {
   if (!settled_ || mode_ == SwingMode::kChanging || !swingSurprise(entries_, options_)) {
     return SwingEvent::kNone;
+  }
+  if (!first_.empty() && fitAll()) {
+    return SwingEvent::kNone;  // the filter had seen the law about a wrong state
   }
   SwingExplanation explanation = explainSwing(entries_, options_);
   if (explanation.event == SwingEvent::kNone) {
