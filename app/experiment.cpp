@@ -88,6 +88,10 @@ void runExperiment(const ExperimentFlags& flags) {
   std::string known;
   for (const Experiment& experiment : kExperiments) {
     if (flags.name == experiment.name) {
+      if (flags.seeds > 0 && experiment.run != runPrediction) {
+        throw InputError("evaluate experiment " + flags.name +
+                         ": --seeds is for the experiment prediction, expected none");
+      }
       experiment.run(flags);
       return;
     }

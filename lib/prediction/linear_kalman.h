@@ -79,7 +79,7 @@ Correction<N, M> kalmanCorrect(const Gaussian<N>& prior, const Eigen::Matrix<dou
   const Eigen::Matrix<double, N, M> K = llt.solve(CP).transpose();
   result.nis = result.innovation.dot(llt.solve(result.innovation));
   result.belief.mean = prior.mean + product(K, result.innovation);
-  // From left to right, each factor I - K C as what it takes away: M columns instead of N.
+  // Joseph's form multiplied out from left to right: each factor I - K C as what it takes away.
   const Eigen::Matrix<double, N, N> left = prior.covariance - product(K, CP);
   const Eigen::Matrix<double, N, M> seen = product(K, R) - product(left, C.transpose());
   const Eigen::Matrix<double, N, N> P = left + product(seen, K.transpose());

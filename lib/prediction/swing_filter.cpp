@@ -29,7 +29,11 @@ Outcome<SwingUpdate> SwingFilter::update(const SwingMeasurement& measurement) {
   if (entries_.empty()) {
     first_ = {measurement};
     entries_.push_back({measurement, options_.prior});
-    return fitStart() ? Outcome<SwingUpdate>(update) : Refusal{"fit did not converge"};
+    if (!fitStart()) {
+      entries_.clear();  // nothing is believed yet, and the next measurement is the first
+      return Refusal{"fit did not converge"};
+    }
+    return update;
   }
   if (measurement.time <= entries_.back().measurement.time) {
     return insertLate(measurement);
