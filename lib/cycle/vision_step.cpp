@@ -22,6 +22,7 @@ HookFilterOptions filterOptions(const CellConfig& cell, const Pose& fMc1) {
   options.pivot_o = cell.hook.pivot_o;
   options.pendulum_length_m = cell.hook.pendulum_length_m;
   options.warm_up_s = cell.vision.warm_up_s;
+  options.belt_direction_f = cell.belt.direction_f;
   return options;
 }
 

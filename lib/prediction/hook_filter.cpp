@@ -41,6 +41,7 @@ void checkOptions(const HookFilterOptions& o) {
       {o.rest_sigma, "rest_sigma"},
       {o.viscous_sigma, "viscous_sigma"},
       {o.dry_sigma, "dry_sigma"},
+      {o.belt_change, "belt_change"},
       {o.next_length_sigma, "next_length_sigma"},
       {o.ready_sigma_m, "ready_sigma_m"},
       {o.neighbour_distance_m, "neighbour_distance_m"},

@@ -69,8 +69,10 @@ struct HookFilterOptions {
   double longer_sigma_m = 0.01;           ///< pivot against pivot_o, along the shank [m]
 
   // kSphericalPendulum learns the damping: standard deviations about damping/mass and about none.
-  double viscous_sigma = 0.05;         ///< [1/s]
-  double dry_sigma = 0.02;             ///< dry friction [rad/s^2]
+  double viscous_sigma = 0.05;                                  ///< [1/s]
+  double dry_sigma = 0.02;                                      ///< dry friction [rad/s^2]
+  Eigen::Vector3d belt_direction_f = Eigen::Vector3d::UnitY();  ///< unit; along it speed changes
+  double belt_change = 0.5;            ///< acceleration of a belt that starts or stops [m/s^2]
   double next_length_sigma = 0.012;    ///< of ln length from one hook to the next of its kind
   double ready_sigma_m = 5e-4;         ///< ready() once a prediction 0.3 s ahead is this good
   double neighbour_distance_m = 0.15;  ///< a fix so far off is of another hook

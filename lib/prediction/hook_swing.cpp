@@ -11,6 +11,7 @@ constexpr double kAnyYaw = 1.0;          // [rad]
 constexpr double kLengthRatio = 0.03;    // of the effective lengths about x and y, logarithm
 constexpr double kBetweenHooks = 0.3;    // of friction from hook to hook, relative
 constexpr double kBetweenSpeeds = 0.02;  // of the belt from hook to hook, relative
+constexpr double kAcrossBelt = 0.1;      // of a changing belt's acceleration: its line is not exact
 constexpr double kRunning = 0.02;        // [m/s]; slower, the belt's speed says nothing
 
 void know(SwingPrior& prior, int place, double mean, double sigma) {
@@ -54,6 +55,8 @@ SwingFilterOptions swingOptions(const HookFilterOptions& options) {
   swing.law.gravity = options.gravity;
   swing.pivot_o = options.pivot_o;
   swing.prior = priorOf(options);
+  swing.changing_acceleration = options.belt_change * options.belt_direction_f.cwiseAbs().cwiseMax(
+                                                          Eigen::Vector3d::Constant(kAcrossBelt));
   swing.steady.rest_density = options.rest_density;
   swing.steady.yaw_density = options.yaw_density;
   swing.gate = SwingGate(options.gate_probability);

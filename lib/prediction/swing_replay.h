@@ -43,7 +43,7 @@ struct SwingFilterOptions {
   SwingNoise steady;                        ///< process noise while the pivot travels evenly
 
   /// While the pivot changes its speed: Singer's standard deviation per axis in f [m/s^2].
-  Eigen::Vector3d changing_acceleration{0.05, 0.5, 0.05};
+  Eigen::Vector3d changing_acceleration{0.5, 0.5, 0.05};
   double bump_rate = 0.5;  ///< standard deviation of what a bump does to the swing rates [rad/s]
 
   SwingGate gate;        ///< on the NIS

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "outcome_text.h"
@@ -135,6 +136,24 @@ TEST(HookSwing, TellsABeltThatStopsAndPredictsAgain) {
   EXPECT_TRUE(told);
   EXPECT_FALSE(filter.lost());
   EXPECT_LT(seen.miss(filter, 289, 15), 1e-3);
+}
+
+TEST(HookSwing, ABeltMayStopAlongAnyAxis) {
+  Seen seen(1.0, 4.0);
+  HookFilterOptions turned = options();
+  turned.fMc1 = Pose(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  turned.belt_direction_f = -Eigen::Vector3d::UnitX();
+  HookFilter filter(turned);
+  bool told = false;
+  for (int i = 0; i < 290; ++i) {
+    (void)filter.update(seen.fix(i)).hasValue();
+    told = told || filter.lastEvent() == SwingEvent::kSpeedChange;
+  }
+  EXPECT_TRUE(told);
+  const auto there = filter.predict(Time::fromSeconds((289 + 15) * kFrame));
+  ASSERT_TRUE(there);
+  const Pose fMo = turned.fMc1 * seen.truth[289 + 15].fMo;
+  EXPECT_LT((there->fMo.translation() - fMo.translation()).norm(), 1e-3);
 }
 
 TEST(HookSwing, TakesALateFixAndRefusesItTwice) {
