@@ -12,6 +12,8 @@
 namespace ringhook {
 namespace {
 
+constexpr double kAwayZ = -5.0;  // of a board that nobody holds: below the floor [m]
+
 std::string numbered(const char* stem, int number) {
   return std::string(stem).append(std::to_string(number));
 }
@@ -226,6 +228,23 @@ void closeGripper(CellState& cell) {
     refresh(cell);
     return;
   }
+}
+
+void placeBoard(CellState& cell, const std::optional<Pose>& fMt) {
+  const mjModel& m = *cell.model;
+  const int body = mj_name2id(&m, mjOBJ_BODY, "board");
+  if (body < 0) {
+    throw Error("The simulated cell has no calibration board to hold.");
+  }
+  const Pose where = fMt.value_or(Pose(Eigen::Translation3d(0.0, 0.0, kAwayZ)));
+  if (!where.matrix().allFinite()) {
+    throw Error("The calibration board cannot be held at a pose that is not finite.");
+  }
+  const Eigen::Quaterniond q(where.linear());
+  const double rotation[4] = {q.w(), q.x(), q.y(), q.z()};
+  mju_copy(cell.data->mocap_pos + 3L * m.body_mocapid[body], where.translation().data(), 3);
+  mju_copy(cell.data->mocap_quat + 4L * m.body_mocapid[body], rotation, 4);
+  refresh(cell);
 }
 
 Pose bodyPose(const CellState& cell, int body) {

@@ -5,6 +5,7 @@
 /// bookkeeping that MuJoCo does not do (who holds which ring, which hook swings yet, forces seen).
 /// Includes MuJoCo: for .cpp files of sim only.
 
+#include <optional>
 #include <vector>
 
 #include "core/pose.h"
@@ -83,6 +84,9 @@ void stepCell(CellState& cell);
 
 void openGripper(CellState& cell);
 void closeGripper(CellState& cell);
+
+/// See CellWorld::holdBoard.
+void placeBoard(CellState& cell, const std::optional<Pose>& fMt);
 
 /// Pose of a body's frame in f.
 Pose bodyPose(const CellState& cell, int body);

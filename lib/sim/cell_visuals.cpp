@@ -10,6 +10,7 @@
 #include "sim/cell_model.h"
 #include "sim/clutter.h"
 #include "sim/hook_shape.h"
+#include "sim/mjcf_text.h"
 #include "sim/scene_dice.h"
 #include "sim/visual_geom.h"
 #include "sim/wall_picture.h"
@@ -45,15 +46,16 @@ GrayImage boardPicture(const BoardOptions& board) {
   return picture;
 }
 
+/// A body of its own (frame t), which someone holds: it can be put anywhere between two exposures.
 std::string boardXml(const BoardOptions& board) {
   Pose tMb(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));  // printed side is the box's +z
   tMb.translation() = Vector3d{0.5 * (board.columns - 1) * board.square,
                                0.5 * (board.rows - 1) * board.square, kBoardHalfThickness};
   const GrayImage face = boardPicture(board);
-  return visualBox(
-      board.fMt * tMb,
-      {0.5 * face.width * board.square, 0.5 * face.height * board.square, kBoardHalfThickness},
-      "board");
+  const Vector3d half{0.5 * face.width * board.square, 0.5 * face.height * board.square,
+                      kBoardHalfThickness};
+  return "<body name=\"board\" mocap=\"true\"" + placing(board.fMt) + ">\n" + kSomeMass +
+         visualBox(tMb, half, "board") + "</body>\n";
 }
 
 std::string textureXml(const std::string& name, int width, int height) {
@@ -156,10 +158,10 @@ std::string sceneVisualXml(const SceneOptions& options, std::uint64_t cell_seed)
   std::string text = std::string("<body name=\"scenery\">\n") + kSomeMass + magazineXml() +
                      visualBox(fMwall, {4.0, 2.5, 0.01}, "wall", colour.str()) +
                      clutterXml(options, cell_seed);
+  text += "</body>\n";
   if (hasBoard(options.board)) {
     text += boardXml(options.board);
   }
-  text += "</body>\n";
   for (int i = 0; i < options.occluder.count; ++i) {
     text += occluderXml(options.occluder, i);
   }

@@ -131,6 +131,8 @@ void CellWorld::setGripper(bool closed) {
 
 bool CellWorld::gripperClosed() const { return impl_->cell.gripper_closed; }
 
+void CellWorld::holdBoard(const std::optional<Pose>& fMt) { placeBoard(impl_->cell, fMt); }
+
 MujocoHandles mujocoHandles(const CellWorld& world) {
   return {world.impl_->cell.model.get(), world.impl_->cell.data.get()};
 }

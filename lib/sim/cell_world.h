@@ -16,8 +16,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/joints.h"
+#include "core/pose.h"
 #include "core/time.h"
 #include "sim/cell_options.h"
 
@@ -58,6 +60,11 @@ class CellWorld {
   /// feeder (the operator's or a feeder's part); with the magazine empty it closes on nothing.
   void setGripper(bool closed);
   [[nodiscard]] bool gripperClosed() const;
+
+  /// Holds the calibration board at fMt from now on, as an integrator's hand would; it touches
+  /// nothing. Nothing: takes it away, out of sight and light. Throws Error if the cell has no board
+  /// (SceneOptions::board) or the pose is not finite.
+  void holdBoard(const std::optional<Pose>& fMt);
 
  private:
   friend MujocoHandles mujocoHandles(const CellWorld& world);

@@ -37,6 +37,8 @@ void SceneMotion::solidsAt(double time_s, double from_now_s, std::vector<Solid>&
   const mjModel& model = impl_->model;
   mjData& moved = *impl_->moved;
   mju_copy(moved.qpos, impl_->present.qpos, model.nq);
+  mju_copy(moved.mocap_pos, impl_->present.mocap_pos, 3 * model.nmocap);
+  mju_copy(moved.mocap_quat, impl_->present.mocap_quat, 4 * model.nmocap);
   mj_integratePos(&model, moved.qpos, impl_->present.qvel, from_now_s);
   for (std::size_t i = 0; i < impl_->occluders.size(); ++i) {
     mjtNum* position = moved.mocap_pos + 3L * impl_->mocap[i];

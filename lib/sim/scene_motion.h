@@ -4,8 +4,8 @@
 /// Where everything in the cell is shortly before and after the world's present instant: bodies
 /// move on with their present velocities, qpos(t + dt) = qpos(t) + qvel(t) dt on the joints'
 /// manifold (mj_integratePos). At the ends of an exposure of T that is wrong by a T^2 / 8: 0.06 um
-/// for 2 m/s^2 and 0.5 ms. Occluders follow their own law, an exact function of time; the physics
-/// knows nothing of them.
+/// for 2 m/s^2 and 0.5 ms. A held board stands still during an exposure. Occluders follow their own
+/// law, an exact function of time; the physics knows nothing of them.
 
 #include <memory>
 #include <vector>

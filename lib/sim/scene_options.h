@@ -40,12 +40,13 @@ struct OccluderOptions {
   double interval_s = 5.0;     ///< from one crossing of y_f = 0 to the next [s]
 };
 
-/// Checkerboard for calibration (frame t of doc/frames.md); none if columns or rows is 0.
+/// Checkerboard for calibration (frame t of doc/frames.md), one white square around it; none if
+/// columns or rows is 0. CellWorld::holdBoard puts it elsewhere.
 struct BoardOptions {
   int columns = 0;              ///< inner corners along x_t
   int rows = 0;                 ///< inner corners along y_t
   double square = 0.025;        ///< side of a square [m]
-  Pose fMt = Pose::Identity();  ///< board in f; printed side seen from -z_t
+  Pose fMt = Pose::Identity();  ///< board in f at time zero; printed side seen from -z_t
 };
 
 struct SceneOptions {
