@@ -184,23 +184,23 @@ void AravisStereoCamera::Impl::fireAt(SteadyClock::time_point& next, double rate
   next = std::max(next + period, SteadyClock::now());
 }
 
-/// Stamps mean the start of the exposure.
+/// Stamps on the host's clock mean the start of the exposure; a clock of its own is tied to the
+/// arrivals, which are the calibrated delay behind mid-exposure.
 Time AravisStereoCamera::Impl::midExposure(int side, const GigeImage& image) {
   const auto index = static_cast<std::size_t>(side);
-  Time started;
   if (options.clock == CameraClock::kOwn) {
-    started = clocks[index].hostTime(image.stamp_ns, image.arrival);
-  } else {
-    started = Time::fromNanoseconds(image.stamp_ns) + (image.arrival - image.real_arrival);
-    if (std::abs(image.arrival - started) > kPlausible_s) {
-      const auto& device = side == 0 ? options.left.device : options.right.device;
-      throw DeviceError("camera " + device + ": its stamps are " +
-                        std::to_string(image.arrival - started) +
-                        " s behind the host's time; expected a clock set by PTP");
-    }
+    const Time arrived = clocks[index].hostTime(image.stamp_ns, image.arrival);
+    lateness_s = image.arrival - arrived;
+    return arrived - options.delay_s;
   }
+  const Time started = Time::fromNanoseconds(image.stamp_ns) + (image.arrival - image.real_arrival);
   lateness_s = image.arrival - started;
-  return started + (0.5 * cameras[index]->exposure() - options.delay_s);
+  if (std::abs(lateness_s) > kPlausible_s) {
+    const auto& device = side == 0 ? options.left.device : options.right.device;
+    throw DeviceError("camera " + device + ": its stamps are " + std::to_string(lateness_s) +
+                      " s behind the host's time; expected a clock set by PTP");
+  }
+  return started + 0.5 * cameras[index]->exposure();
 }
 
 bool AravisStereoCamera::Impl::collect(int side, double timeout_s) {

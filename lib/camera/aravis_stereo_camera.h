@@ -27,7 +27,8 @@ struct AravisOptions {
   GigeCameraOptions right;
   CameraClock clock = CameraClock::kOwn;
   double rate_hz = 50.0;  ///< pairs per second at the start [Hz]
-  double delay_s = 0.0;   ///< of stamps behind mid-exposure, as calibrated [s]
+  double delay_s = 0.0;   ///< from mid-exposure to the earliest arrival, as calibrated; taken off
+                          ///< the stamps of kOwn, needed for nothing with kHost [s]
 };
 
 /// What came and what did not, since the cameras were opened.

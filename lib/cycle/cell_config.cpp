@@ -49,6 +49,9 @@ ArmConfig readArm(YamlFields fields) {
   arm.speed_fraction = fields.number("speed_fraction", 0.01, 1.0);
   arm.gripper_time_s = fields.number("gripper_time_s", 0.0, 10.0);
   arm.delay_s = fields.number("delay_ms", 0.0, 200.0) * 1e-3;
+  if (fields.has("gripper_plate")) {
+    arm.gripper_plate = fields.path("gripper_plate");
+  }
   fields.refuseUnknown();
   return arm;
 }

@@ -37,12 +37,13 @@ struct BeltConfig {
 
 /// Arm, gripper and ring.
 struct ArmConfig {
-  Pose eMr = Pose::Identity();  ///< ring held in the flange
-  JointVector load_rad;         ///< where a ring is put into the gripper
-  JointVector standby_rad;      ///< where the arm waits for a hook
-  double speed_fraction = 0.5;  ///< of the nominal joint speeds, for coarse moves
-  double gripper_time_s = 0.3;  ///< from the command until the jaws are open or closed
-  double delay_s = 0.0;         ///< from the state's instant until its command acts
+  Pose eMr = Pose::Identity();          ///< ring held in the flange
+  JointVector load_rad;                 ///< where a ring is put into the gripper
+  JointVector standby_rad;              ///< where the arm waits for a hook
+  double speed_fraction = 0.5;          ///< of the nominal joint speeds, for coarse moves
+  double gripper_time_s = 0.3;          ///< from the command until the jaws are open or closed
+  double delay_s = 0.0;                 ///< from the state's instant until its command acts
+  std::filesystem::path gripper_plate;  ///< marker.yaml of the plate on the gripper; may be empty
 };
 
 /// The task: timing and tolerances of following, lowering, releasing.

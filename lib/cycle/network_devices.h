@@ -12,8 +12,8 @@
 
 namespace ringhook {
 
-/// The cameras, streaming full images at the search rate; `delay_s`: of their stamps, as calibrated
-/// [s]. Throws DeviceError naming the camera.
+/// The cameras, streaming full images at the search rate; `delay_s`: from mid-exposure to
+/// arrival, as calibrated [s]. Throws DeviceError naming the camera.
 std::unique_ptr<AravisStereoCamera> openCameras(const CellConfig& cell, double delay_s);
 
 /// The arm, ready to move, or only to be watched. Throws DeviceError that says what is missing.

@@ -1,5 +1,8 @@
 #include "sim/arm_visuals.h"
 
+#include <iomanip>
+#include <sstream>
+
 #include "sim/visual_geom.h"
 
 namespace ringhook {
@@ -106,6 +109,21 @@ std::string gripperVisualXml(double palm_length) {
 }
 
 TagPlateFace gripperPlateFace() { return {0.044, 0.088, 0.032, 0.044, {2, 3}}; }
+
+std::string gripperMarkerYaml() {
+  const TagPlateFace face = gripperPlateFace();
+  const double middle = 0.5 * (static_cast<double>(face.ids.size()) - 1.0);
+  std::ostringstream text;
+  text << "# Tag plate of the gripper; tag and plate frames: x right, y down as one reads it [m]\n"
+          "family: tag36h11\nlayout:\n"
+       << std::fixed << std::setprecision(6);
+  for (std::size_t place = 0; place < face.ids.size(); ++place) {
+    text << "  - {id: " << face.ids[place] << ", size: " << face.tag_size
+         << ", x: 0, y: " << (static_cast<double>(place) - middle) * face.tag_distance
+         << ", z: 0, qw: 1, qx: 0, qy: 0, qz: 0}\n";
+  }
+  return text.str();
+}
 
 Pose eMg() {
   Pose pose = Pose::Identity();

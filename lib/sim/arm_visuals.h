@@ -25,5 +25,7 @@ std::string gripperVisualXml(double palm_length);
 /// The gripper's tag plate: its face, and its pose in the flange: x_g = y_e, y_g = x_e, z_g = -z_e.
 TagPlateFace gripperPlateFace();
 Pose eMg();
+/// That plate in the layout of doc/formats.md: datasets/models/gripper/marker.yaml.
+std::string gripperMarkerYaml();
 
 }  // namespace ringhook

@@ -1,5 +1,7 @@
 #include "sim/sim_arm.h"
 
+#include <algorithm>
+#include <deque>
 #include <string>
 
 #include "core/error.h"
@@ -12,13 +14,62 @@ std::string jointName(int index) { return std::string("J").append(std::to_string
 
 }  // namespace
 
-SimArm::SimArm(CellWorld& world) : world_(world), last_position_(world.jointReading()) {}
+/// Encoder readings of the last moments, one for each physics step.
+class SimArm::Past {
+ public:
+  explicit Past(double delay_s) : delay_s_(delay_s) {}
+
+  void note(Time time, const JointVector& reading) {
+    while (readings_.size() > 2 && time - readings_[1].time >= delay_s_) {
+      readings_.pop_front();
+    }
+    readings_.push_back({time, reading});
+  }
+
+  /// What the encoders said the delay before `now`: between two steps joints move evenly.
+  [[nodiscard]] JointVector before(Time now) const {
+    const Time then = now - delay_s_;
+    std::size_t next = 1;
+    while (next + 1 < readings_.size() && readings_[next].time < then) {
+      ++next;
+    }
+    const Reading& a = readings_[next - 1];
+    const Reading& b = readings_[next];
+    const double share = std::clamp((then - a.time) / (b.time - a.time), 0.0, 1.0);
+    return a.position + share * (b.position - a.position);
+  }
+
+ private:
+  struct Reading {
+    Time time;
+    JointVector position;  // [rad]
+  };
+  double delay_s_;
+  std::deque<Reading> readings_;
+};
+
+SimArm::SimArm(CellWorld& world, double state_delay_s)
+    : world_(world), last_position_(world.jointReading()) {
+  if (!(state_delay_s > 0.0)) {
+    return;
+  }
+  past_ = std::make_shared<Past>(state_delay_s);
+  past_->note(world.time(), last_position_);
+  // The world keeps its callbacks for ever; this one ends with the arm.
+  world.every(world.options().physics_step, 0.0, [weak = std::weak_ptr(past_), &world](Time time) {
+    if (const auto past = weak.lock()) {
+      past->note(time, world.jointReading());
+    }
+  });
+}
+
+SimArm::~SimArm() = default;
 
 ArmState SimArm::waitState() {
   world_.advanceTo(world_.time() + kPeriod);
   ArmState state;
   state.time = world_.time();
-  state.position = world_.jointReading();
+  state.position = past_ ? past_->before(state.time) : world_.jointReading();
   state.velocity = (state.position - last_position_) / kPeriod;
   state.motion_possible = !stopped_;
   last_position_ = state.position;

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "image_reader.h"
+#include "sim/arm_visuals.h"
 #include "sim/nominal_rig.h"
 #include "sim/tag_pattern.h"
 
@@ -28,6 +29,7 @@ TEST(HookShape, StoredModelsAreWhatTheCodeEmits) {
   EXPECT_EQ(stored("datasets/models/hook/hook.cao"), hookCao(shape));
   EXPECT_EQ(stored("datasets/models/hook/hook.obj"), hookObj(shape));
   EXPECT_EQ(stored("datasets/models/hook/marker.yaml"), markerYaml(shape));
+  EXPECT_EQ(stored("datasets/models/gripper/marker.yaml"), gripperMarkerYaml());
 }
 
 TEST(HookShape, RefusesWhatIsNoHook) {

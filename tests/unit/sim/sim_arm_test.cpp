@@ -53,6 +53,28 @@ TEST(SimArm, FlangeIsWhereTheDataSheetPutsIt) {
   EXPECT_NEAR(truth(CellWorld(options)).fMe.translation().z(), 1.006, 1e-9);
 }
 
+TEST(SimArm, LateStatesTellWhereTheJointsWereThatMuchBefore) {
+  constexpr double kDelay = 0.00523;  // no whole number of physics steps
+  CellWorld prompt_world(exactArm());
+  CellWorld late_world(exactArm());
+  SimArm prompt(prompt_world);
+  SimArm late(late_world, kDelay);
+  JointVector speed = JointVector::Zero();
+  for (int i = 0; i < 50; ++i) {
+    const ArmState now = prompt.waitState();
+    const ArmState then = late.waitState();
+    ASSERT_EQ(now.time, then.time);
+    if (i > 20) {  // both have turned evenly for long enough
+      const double behind = (now.position[0] - then.position[0]) / speed[0];
+      EXPECT_NEAR(behind, kDelay, 1e-6);
+      EXPECT_NEAR(then.velocity[0], speed[0], 1e-4);
+    }
+    speed[0] = 0.3;
+    prompt.commandVelocity(speed);
+    late.commandVelocity(speed);
+  }
+}
+
 TEST(SimArm, RefusesAVelocityBeyondAJointsRange) {
   CellOptions options = exactArm();
   options.arm.initial_joints[4] = 120.4 * std::numbers::pi / 180.0;
