@@ -27,7 +27,7 @@ struct StereoJob {
 };
 
 StereoCalibration run(const StereoJob& job) {
-  const Chessboard board = parseBoard(job.board);
+  const Board board = parseBoard(job.board);
   const auto left = expandGlob(job.left, "--left");
   const auto right = expandGlob(job.right, "--right");
   StereoViews views;
@@ -36,7 +36,7 @@ StereoCalibration run(const StereoJob& job) {
     views = findViews(left, right, board, hookFor(progress));
   }
   Progress progress("calibrating");
-  return calibrateStereo(views, board, static_cast<LensTerms>(job.distortion), hookFor(progress));
+  return calibrateStereo(views, board, {static_cast<LensTerms>(job.distortion)}, hookFor(progress));
 }
 
 nlohmann::json summary(const StereoCalibration& c) {

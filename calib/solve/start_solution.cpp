@@ -73,33 +73,43 @@ Pose medianPose(const std::vector<Pose>& proposals) {
                            [&](const Pose& a, const Pose& b) { return total(a) < total(b); });
 }
 
-std::vector<cv::Point2f> toOpenCv(const Corners& corners) {
+std::vector<cv::Point2f> pixelsOf(const BoardSighting& sighting) {
   std::vector<cv::Point2f> result;
-  for (const Eigen::Vector2d& p : corners) {
+  for (const Eigen::Vector2d& p : sighting.pixels) {
     result.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  }
+  return result;
+}
+
+std::vector<cv::Point3f> pointsOf(const BoardSighting& sighting,
+                                  const std::vector<Eigen::Vector3d>& points) {
+  std::vector<cv::Point3f> result;
+  for (const int id : sighting.ids) {
+    const Eigen::Vector3d& p = points[static_cast<std::size_t>(id)];
+    result.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
   }
   return result;
 }
 
 }  // namespace
 
-StereoSolution startSolution(const std::vector<StereoView>& views, const Chessboard& board,
+StereoSolution startSolution(const std::vector<StereoView>& views, const Board& board,
                              LensTerms terms) {
-  std::vector<cv::Point3f> points_t;
-  for (const Eigen::Vector3d& p : board.points()) {
-    points_t.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.0F);
-  }
+  const std::vector<Eigen::Vector3d> points = board.points();
+  std::vector<std::vector<cv::Point3f>> left_points;
+  std::vector<std::vector<cv::Point3f>> right_points;
   std::vector<std::vector<cv::Point2f>> left;
   std::vector<std::vector<cv::Point2f>> right;
   for (const StereoView& view : views) {
-    left.push_back(toOpenCv(view.left));
-    right.push_back(toOpenCv(view.right));
+    left_points.push_back(pointsOf(view.left, points));
+    right_points.push_back(pointsOf(view.right, points));
+    left.push_back(pixelsOf(view.left));
+    right.push_back(pixelsOf(view.right));
   }
-  const std::vector<std::vector<cv::Point3f>> points(views.size(), points_t);
   const cv::Size size(views.front().width, views.front().height);
   try {
-    const OneCamera first = calibrateAlone(points, left, size, terms);
-    const OneCamera second = calibrateAlone(points, right, size, terms);
+    const OneCamera first = calibrateAlone(left_points, left, size, terms);
+    const OneCamera second = calibrateAlone(right_points, right, size, terms);
     std::vector<Pose> proposals;
     for (std::size_t i = 0; i < views.size(); ++i) {
       proposals.push_back(second.cMt[i] * first.cMt[i].inverse());

@@ -39,7 +39,7 @@ void requireViews(const StereoViews& found) {
     return;
   }
   std::string sentence =
-      fmt::format("only {} of {} pairs show the whole board in both images, expected at least {}",
+      fmt::format("only {} of {} pairs show the board in both images, expected at least {}",
                   found.usable.size(), found.usable.size() + found.rejected.size(), kFewestViews);
   if (!found.rejected.empty()) {
     sentence += " (first: " + found.rejected.front().reason + ")";
@@ -47,14 +47,13 @@ void requireViews(const StereoViews& found) {
   throw InputError(sentence);
 }
 
-StereoSolution solve(const std::vector<StereoView>& views, const Chessboard& board,
-                     LensTerms terms) {
+StereoSolution solve(const std::vector<StereoView>& views, const Board& board, LensTerms terms) {
   return refineSolution(startSolution(views, board, terms), views, board, terms);
 }
 
 // Fits, and takes out the worst contradicting view until none is left.
 StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<RejectedView>& rejected,
-                               const Chessboard& board, LensTerms terms, const StepHook& hook) {
+                               const Board& board, LensTerms terms, const StepHook& hook) {
   const std::size_t most = std::max<std::size_t>(1, views.size() / 4);
   for (std::size_t taken = 0;; ++taken) {
     hook(0.1, fmt::format("fitting {} views", views.size()));
@@ -85,8 +84,8 @@ StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<Rejec
 // Row differences of every view with a fit that left it out; `solution` only starts each fit.
 std::vector<std::vector<double>> heldOutRows(const StereoSolution& solution,
                                              const std::vector<StereoView>& views,
-                                             const Chessboard& board, LensTerms terms,
-                                             std::size_t folds, const StepHook& hook) {
+                                             const Board& board, LensTerms terms, std::size_t folds,
+                                             const StepHook& hook) {
   std::vector<std::vector<double>> rows(views.size());
   for (std::size_t fold = 0; fold < folds; ++fold) {
     hook(0.2 + 0.8 * static_cast<double>(fold) / static_cast<double>(folds),
@@ -108,11 +107,20 @@ std::vector<std::vector<double>> heldOutRows(const StereoSolution& solution,
   return rows;
 }
 
-void fillEvidence(StereoCalibration& result, const Chessboard& board) {
+void fillEvidence(StereoCalibration& result, const Board& board) {
   result.rig.rms_px = result.rms_px;
   result.rig.heldout_vertical_disparity_px = result.heldout_vertical_disparity_px;
   result.rig.board = toString(board);
   result.rig.views = static_cast<int>(result.used.size());
+}
+
+// Noise per axis [px] from the squares that are left and the degrees of freedom that left them.
+double cornerSigma(const std::vector<ViewError>& errors, int degrees_of_freedom) {
+  double squares = 0.0;
+  for (const ViewError& e : errors) {
+    squares += e.both_px * e.both_px * e.points;
+  }
+  return std::sqrt(squares / degrees_of_freedom);
 }
 
 double relativeUncertainty(const StereoCalibration& c) {
@@ -149,19 +157,19 @@ double outlierLimit(const std::vector<ViewError>& errors) {
   return std::max({middle + 5.0 * 1.4826 * median(values), 2.0 * middle, 0.1});
 }
 
-StereoCalibration calibrateStereo(const StereoViews& found, const Chessboard& board,
-                                  LensTerms terms, const StepHook& hook) {
+StereoCalibration calibrateStereo(const StereoViews& found, const Board& board,
+                                  const StereoOptions& options, const StepHook& hook) {
   requireViews(found);
+  const LensTerms terms = options.terms.value_or(LensTerms::kFive);
   StereoCalibration result;
+  result.terms = terms;
   result.rejected = found.rejected;
   std::vector<StereoView> views = found.usable;
   const StereoSolution solution = solveConsistent(views, result.rejected, board, terms, hook);
   const std::vector<ViewError> errors = viewErrors(solution, views, board);
   result.rig = solution.rig;
   result.rms_px = rms(errors);
-  const double squares =
-      result.rms_px * result.rms_px * 2.0 * static_cast<double>(views.size() * board.size());
-  result.corner_sigma_px = std::sqrt(squares / redundancy(views.size(), board, terms));
+  result.corner_sigma_px = cornerSigma(errors, redundancy(views, terms));
   result.uncertainty = uncertainty(solution, views, board, terms, result.corner_sigma_px);
   result.folds = static_cast<int>(views.size() <= kLargestLeaveOneOut ? views.size() : kFolds);
   const auto rows =

@@ -23,6 +23,12 @@ namespace ringhook {
 /// out for judging.
 constexpr int kFewestViews = 4;
 
+struct StereoOptions {
+  std::optional<LensTerms> terms;  ///< absent: chosen by held-out error
+  bool board_shape = false;        ///< the board's own points are unknown, too
+  int threads = 2;                 ///< at most that many
+};
+
 struct UsedView {
   std::string left_name;
   std::string right_name;
@@ -38,7 +44,8 @@ struct Verdict {
 };
 
 struct StereoCalibration {
-  StereoRig rig;  ///< with rms_px, held-out figure, board and views filled
+  LensTerms terms = LensTerms::kFive;  ///< given or chosen
+  StereoRig rig;                       ///< with rms_px, held-out figure, board and views filled
   std::vector<UsedView> used;
   std::vector<RejectedView> rejected;
   double rms_px = 0.0;                         ///< see rms()
@@ -62,8 +69,8 @@ double outlierLimit(const std::vector<ViewError>& errors);
 /// out one by one, worst first, each with its reason. Folds: leave one view out up to 20 views, ten
 /// folds beyond. Throws InputError below kFewestViews views, Error if more than a quarter of them
 /// contradict the others or nothing converges, and whatever `hook` throws.
-StereoCalibration calibrateStereo(const StereoViews& found, const Chessboard& board,
-                                  LensTerms terms, const StepHook& hook);
+StereoCalibration calibrateStereo(const StereoViews& found, const Board& board,
+                                  const StereoOptions& options, const StepHook& hook);
 
 /// Judges the figures of a finished calibration.
 Verdict judge(const StereoCalibration& calibration);

@@ -10,7 +10,7 @@
 namespace ringhook {
 
 std::vector<ViewError> viewErrors(const StereoSolution& solution,
-                                  const std::vector<StereoView>& views, const Chessboard& board) {
+                                  const std::vector<StereoView>& views, const Board& board) {
   const std::vector<Eigen::Vector3d> points = board.points();
   const auto residual2 = [](const CameraModel& camera, const Eigen::Vector3d& point_c,
                             const Eigen::Vector2d& seen) {
@@ -18,32 +18,44 @@ std::vector<ViewError> viewErrors(const StereoSolution& solution,
   };
   std::vector<ViewError> errors;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    double left = 0.0;
-    double right = 0.0;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const Eigen::Vector3d point_c1 = solution.c1Mt[i] * points[j];
-      left += residual2(solution.rig.left, point_c1, views[i].left[j]);
-      right += residual2(*solution.rig.right, solution.rig.c2Mc1 * point_c1, views[i].right[j]);
-    }
-    const auto n = static_cast<double>(points.size());
-    errors.push_back(
-        {std::sqrt(left / n), std::sqrt(right / n), std::sqrt((left + right) / (2 * n))});
+    const auto squares = [&](const CameraModel& camera, const Pose& cMt,
+                             const BoardSighting& sighting) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < sighting.ids.size(); ++j) {
+        const Eigen::Vector3d& point_t = points[static_cast<std::size_t>(sighting.ids[j])];
+        sum += residual2(camera, cMt * point_t, sighting.pixels[j]);
+      }
+      return sum;
+    };
+    const double left = squares(solution.rig.left, solution.c1Mt[i], views[i].left);
+    const double right =
+        squares(*solution.rig.right, solution.rig.c2Mc1 * solution.c1Mt[i], views[i].right);
+    const auto n_left = static_cast<double>(views[i].left.ids.size());
+    const auto n_right = static_cast<double>(views[i].right.ids.size());
+    errors.push_back({std::sqrt(left / n_left), std::sqrt(right / n_right),
+                      std::sqrt((left + right) / (n_left + n_right)),
+                      static_cast<int>(n_left + n_right)});
   }
   return errors;
 }
 
 double rms(const std::vector<ViewError>& errors) {
   double sum = 0.0;
+  double points = 0.0;
   for (const ViewError& e : errors) {
-    sum += e.both_px * e.both_px;
+    sum += e.both_px * e.both_px * e.points;
+    points += e.points;
   }
-  return std::sqrt(sum / static_cast<double>(errors.size()));
+  return std::sqrt(sum / points);
 }
 
-int redundancy(std::size_t views, const Chessboard& board, LensTerms terms) {
-  const int n = static_cast<int>(views);
-  const int residuals = 4 * n * static_cast<int>(board.size());
-  return residuals - 2 * (4 + static_cast<int>(terms)) - 6 * (n + 1);
+int redundancy(const std::vector<StereoView>& views, LensTerms terms) {
+  std::size_t points = 0;
+  for (const StereoView& view : views) {
+    points += view.left.ids.size() + view.right.ids.size();
+  }
+  const int n = static_cast<int>(views.size());
+  return 2 * static_cast<int>(points) - 2 * (4 + static_cast<int>(terms)) - 6 * (n + 1);
 }
 
 std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view) {
@@ -62,9 +74,16 @@ std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view)
                : std::numeric_limits<double>::infinity();
   };
   std::vector<double> differences;
-  for (std::size_t j = 0; j < view.left.size(); ++j) {
-    const double d = row(rig.left, level * half, view.left[j]) -
-                     row(right, level * half.conjugate(), view.right[j]);
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < view.left.ids.size(); ++i) {
+    while (j < view.right.ids.size() && view.right.ids[j] < view.left.ids[i]) {
+      ++j;
+    }
+    if (j == view.right.ids.size() || view.right.ids[j] != view.left.ids[i]) {
+      continue;
+    }
+    const double d = row(rig.left, level * half, view.left.pixels[i]) -
+                     row(right, level * half.conjugate(), view.right.pixels[j]);
     differences.push_back(std::isfinite(d) ? d : std::numeric_limits<double>::infinity());
   }
   return differences;

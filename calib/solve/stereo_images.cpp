@@ -20,23 +20,23 @@ void requireSize(const std::filesystem::path& path, const GrayImage& image, int 
 
 // One pair: into the usable views, or into the rejected ones with the reason.
 void examinePair(const std::filesystem::path& left_path, const std::filesystem::path& right_path,
-                 const Chessboard& board, StereoViews& views) {
+                 const Board& board, StereoViews& views) {
   const std::string left_name = left_path.filename().string();
   const std::string right_name = right_path.filename().string();
   const GrayImage left_image = readGrayImage(left_path);
   const GrayImage right_image = readGrayImage(right_path);
-  const Outcome<Corners> left_found = findChessboard(left_image, board);
+  const Outcome<BoardSighting> left_found = findBoard(left_image, board);
   if (!left_found) {
     views.rejected.push_back({left_name, right_name, left_name + ": " + left_found.reason()});
     return;
   }
-  const Corners& left = left_found.value();
-  const Outcome<Corners> right_found = findChessboard(right_image, board);
+  const BoardSighting& left = left_found.value();
+  const Outcome<BoardSighting> right_found = findBoard(right_image, board);
   if (!right_found) {
     views.rejected.push_back({left_name, right_name, right_name + ": " + right_found.reason()});
     return;
   }
-  const Corners right = orderedLike(left, right_found.value(), board);
+  const BoardSighting right = orderedLike(left, right_found.value(), board);
   const bool first = views.usable.empty();
   const int width = first ? left_image.width : views.usable.front().width;
   const int height = first ? left_image.height : views.usable.front().height;
@@ -57,7 +57,7 @@ std::vector<std::filesystem::path> expandGlob(const std::string& pattern,
 }
 
 StereoViews findViews(const std::vector<std::filesystem::path>& left,
-                      const std::vector<std::filesystem::path>& right, const Chessboard& board,
+                      const std::vector<std::filesystem::path>& right, const Board& board,
                       const StepHook& hook) {
   if (left.size() != right.size()) {
     throw InputError("--left matches " + std::to_string(left.size()) + " images and --right " +

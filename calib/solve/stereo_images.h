@@ -2,7 +2,7 @@
 
 /// \file
 /// From two lists of image files to the views that a stereo calibration is made of. Files are
-/// paired by their order of names; a pair counts only if the whole board is found in both.
+/// paired by their order of names; a pair counts only if the board is found in both.
 
 #include <filesystem>
 #include <string>
@@ -26,7 +26,7 @@ std::vector<std::filesystem::path> expandGlob(const std::string& pattern,
 /// Looks for the board in every pair. Throws InputError for lists of different length, unreadable
 /// files, and boards found in images of different sizes; pairs without the board are `rejected`.
 StereoViews findViews(const std::vector<std::filesystem::path>& left,
-                      const std::vector<std::filesystem::path>& right, const Chessboard& board,
+                      const std::vector<std::filesystem::path>& right, const Board& board,
                       const StepHook& hook);
 
 }  // namespace ringhook

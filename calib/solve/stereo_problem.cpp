@@ -132,7 +132,7 @@ struct Bundle {
   std::vector<PoseBlock> c1Mt;
   ceres::Problem problem;
 
-  Bundle(const StereoSolution& start, const std::vector<StereoView>& views, const Chessboard& board,
+  Bundle(const StereoSolution& start, const std::vector<StereoView>& views, const Board& board,
          LensTerms terms)
       : left(blockOf(start.rig.left)),
         right(blockOf(start.rig.right.value())),
@@ -142,9 +142,7 @@ struct Bundle {
     }
     const std::vector<Eigen::Vector3d> points = board.points();
     for (std::size_t i = 0; i < views.size(); ++i) {
-      for (std::size_t j = 0; j < points.size(); ++j) {
-        addCorner(points[j], views[i].left[j], views[i].right[j], c1Mt[i].data());
-      }
+      addView(views[i], points, c1Mt[i].data());
     }
     if (terms == LensTerms::kEight) {
       addPrior(left.data());
@@ -159,15 +157,22 @@ struct Bundle {
         nullptr, lens);
   }
 
-  void addCorner(const Eigen::Vector3d& point_t, const Eigen::Vector2d& seen_left,
-                 const Eigen::Vector2d& seen_right, double* view_pose) {
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize>(
-                                 new LeftResidual{point_t, seen_left}),
-                             nullptr, left.data(), view_pose);
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize>(
-            new RightResidual{point_t, seen_right}),
-        nullptr, right.data(), c2Mc1.data(), view_pose);
+  void addView(const StereoView& view, const std::vector<Eigen::Vector3d>& points,
+               double* view_pose) {
+    for (std::size_t j = 0; j < view.left.ids.size(); ++j) {
+      const Eigen::Vector3d& point_t = points[static_cast<std::size_t>(view.left.ids[j])];
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize>(
+              new LeftResidual{point_t, view.left.pixels[j]}),
+          nullptr, left.data(), view_pose);
+    }
+    for (std::size_t j = 0; j < view.right.ids.size(); ++j) {
+      const Eigen::Vector3d& point_t = points[static_cast<std::size_t>(view.right.ids[j])];
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize>(
+              new RightResidual{point_t, view.right.pixels[j]}),
+          nullptr, right.data(), c2Mc1.data(), view_pose);
+    }
   }
 
   void holdUnusedTerms(LensTerms terms) {
@@ -185,7 +190,7 @@ struct Bundle {
 }  // namespace
 
 StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
-                              const Chessboard& board, LensTerms terms) {
+                              const Board& board, LensTerms terms) {
   Bundle bundle(start, views, board, terms);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -212,8 +217,8 @@ StereoSolution refineSolution(const StereoSolution& start, const std::vector<Ste
 }
 
 std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
-                                       const std::vector<StereoView>& views,
-                                       const Chessboard& board, LensTerms terms, double sigma_px) {
+                                       const std::vector<StereoView>& views, const Board& board,
+                                       LensTerms terms, double sigma_px) {
   Bundle bundle(solution, views, board, terms);
   const QuietLog quiet;
   ceres::Covariance::Options options;

@@ -15,20 +15,20 @@
 #include <string>
 #include <vector>
 
-#include "calib/solve/chessboard.h"
+#include "calib/solve/board.h"
 #include "core/pose.h"
 #include "rig/stereo_rig.h"
 
 namespace ringhook {
 
-/// One pair of images in which both cameras saw the whole board.
+/// One pair of images in which both cameras saw the board, of coded boards perhaps different parts.
 struct StereoView {
   std::string left_name;   ///< for messages, a file name
   std::string right_name;  ///< for messages, a file name
   int width = 0;           ///< of both images [px]
   int height = 0;          ///< of both images [px]
-  Corners left;            ///< in the order of Chessboard::points() [px]
-  Corners right;           ///< the same corners in the right image [px]
+  BoardSighting left;
+  BoardSighting right;
 };
 
 /// One pair of images that is not used, and why.
@@ -57,7 +57,8 @@ struct StereoSolution {
 struct ViewError {
   double left_px = 0.0;
   double right_px = 0.0;
-  double both_px = 0.0;  ///< over the corners of both images
+  double both_px = 0.0;  ///< over the points of both images
+  int points = 0;        ///< seen in both images together
 };
 
 /// Standard deviations that the corner noise leaves in the result.
@@ -68,23 +69,23 @@ struct Uncertainty {
 
 /// Each camera alone (Zhang), then the pose between them as the median view tells it. Throws Error
 /// if OpenCV finds no start, as for views that show the board in one orientation only.
-StereoSolution startSolution(const std::vector<StereoView>& views, const Chessboard& board,
+StereoSolution startSolution(const std::vector<StereoView>& views, const Board& board,
                              LensTerms terms);
 
 /// Refines everything from `start`, which has one c1Mt per view, to the minimum. With eight
 /// terms k4 k5 k6 carry a weak prior (see the source). Throws Error if the minimum is not reached.
 StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
-                              const Chessboard& board, LensTerms terms);
+                              const Board& board, LensTerms terms);
 
 /// First-order uncertainty at the minimum for corner noise `sigma_px` per axis [px]; nothing if
 /// the views leave a parameter undetermined.
 std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
-                                       const std::vector<StereoView>& views,
-                                       const Chessboard& board, LensTerms terms, double sigma_px);
+                                       const std::vector<StereoView>& views, const Board& board,
+                                       LensTerms terms, double sigma_px);
 
 /// Residuals of every view under `solution`.
 std::vector<ViewError> viewErrors(const StereoSolution& solution,
-                                  const std::vector<StereoView>& views, const Chessboard& board);
+                                  const std::vector<StereoView>& views, const Board& board);
 
 /// OpenCV's figure for stereoCalibrate: sqrt(sum of squared residual lengths / number of corners
 /// seen), both images counted [px]. Noise of sigma per axis gives sigma * sqrt(2) less the share
@@ -92,10 +93,11 @@ std::vector<ViewError> viewErrors(const StereoSolution& solution,
 double rms(const std::vector<ViewError>& errors);
 
 /// Degrees of freedom left: scalar residuals minus parameters.
-int redundancy(std::size_t views, const Chessboard& board, LensTerms terms);
+int redundancy(const std::vector<StereoView>& views, LensTerms terms);
 
-/// Row differences [px] of each corner after rectification by `rig`, scaled to the mean of the
-/// four focal lengths: left minus right. Corners beyond the lens model give infinity.
+/// Row differences [px] of each point that both images show, in the order of ids, after
+/// rectification by `rig`, scaled to the mean of the four focal lengths: left minus right. Corners
+/// beyond the lens model give infinity.
 std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view);
 
 }  // namespace ringhook

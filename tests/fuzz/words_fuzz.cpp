@@ -1,6 +1,6 @@
 // Any words on the command line: a board, a mishap, a pose.
 
-#include "calib/solve/chessboard.h"
+#include "calib/solve/board.h"
 #include "camera/sequence.h"
 #include "fuzz/scratch_folder.h"
 #include "sim/rx60_mishaps.h"

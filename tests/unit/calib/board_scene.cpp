@@ -18,7 +18,7 @@ cv::Mat asMat(const Eigen::MatrixXd& m) {
 }
 
 // OpenCV's own projection: independent of the law that the solver differentiates.
-Corners projectBoard(const CameraModel& camera, const Pose& cMt, const Chessboard& board) {
+BoardSighting projectBoard(const CameraModel& camera, const Pose& cMt, const Board& board) {
   std::vector<cv::Point3d> points;
   for (const Eigen::Vector3d& p : board.points()) {
     points.emplace_back(p.x(), p.y(), p.z());
@@ -26,15 +26,16 @@ Corners projectBoard(const CameraModel& camera, const Pose& cMt, const Chessboar
   std::vector<cv::Point2d> pixels;
   cv::projectPoints(points, asMat(thetaU(cMt.linear())), asMat(cMt.translation()), asMat(camera.K),
                     asMat(camera.distortion), pixels);
-  Corners corners;
+  BoardSighting sighting;
   for (const cv::Point2d& p : pixels) {
-    corners.emplace_back(p.x, p.y);
+    sighting.ids.push_back(static_cast<int>(sighting.ids.size()));
+    sighting.pixels.emplace_back(p.x, p.y);
   }
-  return corners;
+  return sighting;
 }
 
 // Grey value of the print at a point of its plane, in squares from the first inner corner.
-double printAt(const Chessboard& board, double x, double y) {
+double printAt(const Board& board, double x, double y) {
   const double column = std::floor(x);
   const double row = std::floor(y);
   if (column < -1 || row < -1 || column >= board.columns || row >= board.rows) {
@@ -60,7 +61,7 @@ StereoRig knownRig() {
   return rig;
 }
 
-StereoViews simulatedViews(int count, const Chessboard& board, double sigma_px, std::uint32_t seed,
+StereoViews simulatedViews(int count, const Board& board, double sigma_px, std::uint32_t seed,
                            double tilt_rad) {
   const StereoRig rig = knownRig();
   std::mt19937 random(seed);
@@ -69,8 +70,8 @@ StereoViews simulatedViews(int count, const Chessboard& board, double sigma_px, 
   for (int i = 0; i < count; ++i) {
     const double direction = 2.4 * i;  // golden angle: all directions, none twice
     const Eigen::Vector3d tilt(tilt_rad * std::cos(direction), tilt_rad * std::sin(direction), 0.1);
-    const Eigen::Vector3d middle(0.5 * board.square_m * (board.columns - 1),
-                                 0.5 * board.square_m * (board.rows - 1), 0.0);
+    const Eigen::Vector3d middle(0.5 * board.pitch_m * (board.columns - 1),
+                                 0.5 * board.pitch_m * (board.rows - 1), 0.0);
     const Pose turned = makePoseThetaU(Eigen::Vector3d::Zero(), tilt);
     const Eigen::Vector3d centre(0.06 + 0.06 * std::cos(3.1 * i), 0.06 * std::sin(3.1 * i),
                                  0.50 + 0.02 * (i % 6));
@@ -79,8 +80,8 @@ StereoViews simulatedViews(int count, const Chessboard& board, double sigma_px, 
     StereoView view{"left" + name, "right" + name, rig.left.width, rig.left.height, {}, {}};
     view.left = projectBoard(rig.left, c1Mt, board);
     view.right = projectBoard(*rig.right, rig.c2Mc1 * c1Mt, board);
-    for (Corners* corners : {&view.left, &view.right}) {
-      for (Eigen::Vector2d& p : *corners) {
+    for (BoardSighting* sighting : {&view.left, &view.right}) {
+      for (Eigen::Vector2d& p : sighting->pixels) {
         p += sigma_px * Eigen::Vector2d(noise(random), noise(random));
       }
     }
@@ -89,10 +90,10 @@ StereoViews simulatedViews(int count, const Chessboard& board, double sigma_px, 
   return views;
 }
 
-GrayImage drawBoard(const Chessboard& board, const Eigen::Matrix3d& K, const Pose& cMt, int width,
+GrayImage drawBoard(const Board& board, const Eigen::Matrix3d& K, const Pose& cMt, int width,
                     int height) {
   Eigen::Matrix3d planeToPixel;
-  planeToPixel << cMt.linear().col(0) * board.square_m, cMt.linear().col(1) * board.square_m,
+  planeToPixel << cMt.linear().col(0) * board.pitch_m, cMt.linear().col(1) * board.pitch_m,
       cMt.translation();
   const Eigen::Matrix3d pixelToPlane = (K * planeToPixel).inverse();
   GrayImage image(width, height);

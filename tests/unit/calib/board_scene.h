@@ -17,13 +17,13 @@ StereoRig knownRig();
 
 /// `count` views of the board, tilted up to 0.5 rad in all directions, whole in both images;
 /// corners by OpenCV's projectPoints plus Gaussian noise of `sigma_px` per axis [px].
-StereoViews simulatedViews(int count, const Chessboard& board, double sigma_px, std::uint32_t seed,
+StereoViews simulatedViews(int count, const Board& board, double sigma_px, std::uint32_t seed,
                            double tilt_rad = 0.5);
 
 /// The board as a distortion-free camera K at cMt sees it, each pixel the mean of 8x8 samples
 /// over 2x2 px (the blur of a lens; sharper edges would be undersampled), on a grey ground.
 /// Square (0, 0), between the first four inner corners, is dark.
-GrayImage drawBoard(const Chessboard& board, const Eigen::Matrix3d& K, const Pose& cMt, int width,
+GrayImage drawBoard(const Board& board, const Eigen::Matrix3d& K, const Pose& cMt, int width,
                     int height);
 
 }  // namespace ringhook

@@ -15,11 +15,11 @@ TEST(OpenCvPairs, CalibrateToAFifthOfAPixelHeldOut) {
     GTEST_SKIP() << "package opencv-doc is not installed";
   }
   const StepHook silent = [](double, const std::string&) {};
-  const Chessboard board = parseBoard("chessboard:9x6:25mm");
+  const Board board = parseBoard("chessboard:9x6:25mm");
   const StereoViews views =
       findViews(expandGlob((data / "left*.jpg").string(), "--left"),
                 expandGlob((data / "right*.jpg").string(), "--right"), board, silent);
-  const auto c = calibrateStereo(views, board, LensTerms::kFive, silent);
+  const auto c = calibrateStereo(views, board, {LensTerms::kFive}, silent);
   EXPECT_EQ(c.used.size(), 13U);
   ASSERT_EQ(c.rejected.size(), 1U);  // left.jpg, right.jpg show no board
   EXPECT_EQ(c.rejected[0].left_name, "left.jpg");

@@ -13,13 +13,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Chessboard kBoard{9, 6, 0.025};
+const Board kBoard{BoardKind::kChessboard, 9, 6, 0.025};
 constexpr double kSigma_px = 0.05;
+const StereoOptions kFive{LensTerms::kFive};
 const StepHook kSilent = [](double, const std::string&) {};
 
 std::string failureOf(const StereoViews& views) {
   try {
-    (void)calibrateStereo(views, kBoard, LensTerms::kFive, kSilent);
+    (void)calibrateStereo(views, kBoard, kFive, kSilent);
   } catch (const Error& e) {
     return e.what();
   }
@@ -27,8 +28,7 @@ std::string failureOf(const StereoViews& views) {
 }
 
 TEST(StereoCalibration, RecoversTheRigWithinItsOwnUncertainty) {
-  const auto c =
-      calibrateStereo(simulatedViews(16, kBoard, kSigma_px, 1), kBoard, LensTerms::kFive, kSilent);
+  const auto c = calibrateStereo(simulatedViews(16, kBoard, kSigma_px, 1), kBoard, kFive, kSilent);
   const StereoRig truth = knownRig();
   ASSERT_TRUE(c.uncertainty);
   EXPECT_LT(c.uncertainty->baseline_m, 1e-4);
@@ -42,10 +42,10 @@ TEST(StereoCalibration, RecoversTheRigWithinItsOwnUncertainty) {
 }
 
 TEST(StereoCalibration, ReportsTheInjectedNoise) {
-  const auto c =
-      calibrateStereo(simulatedViews(16, kBoard, kSigma_px, 2), kBoard, LensTerms::kFive, kSilent);
+  const StereoViews views = simulatedViews(16, kBoard, kSigma_px, 2);
+  const auto c = calibrateStereo(views, kBoard, kFive, kSilent);
   const double residuals = 4.0 * 16.0 * 54.0;
-  const double free = redundancy(16, kBoard, LensTerms::kFive);
+  const double free = redundancy(views.usable, LensTerms::kFive);
   EXPECT_DOUBLE_EQ(free, residuals - 18 - 6 - 6 * 16);
   // A root mean square of n values has the relative deviation 1 / sqrt(2 n); five of them.
   EXPECT_NEAR(c.corner_sigma_px, kSigma_px, 5.0 * kSigma_px / std::sqrt(2.0 * free));
@@ -64,10 +64,10 @@ TEST(StereoCalibration, IsExactWithoutNoise) {
 
 TEST(StereoCalibration, TakesOutAndNamesTheViewWhoseImagesAreNoPair) {
   StereoViews views = simulatedViews(12, kBoard, kSigma_px, 3);
-  for (Eigen::Vector2d& p : views.usable[4].right) {
+  for (Eigen::Vector2d& p : views.usable[4].right.pixels) {
     p += Eigen::Vector2d(1.0, 6.0);
   }
-  const auto c = calibrateStereo(views, kBoard, LensTerms::kFive, kSilent);
+  const auto c = calibrateStereo(views, kBoard, kFive, kSilent);
   ASSERT_EQ(c.rejected.size(), 1U);
   EXPECT_EQ(c.rejected[0].left_name, "left4.png");
   EXPECT_THAT(c.rejected[0].reason, HasSubstr("contradicts the other views"));
@@ -76,8 +76,7 @@ TEST(StereoCalibration, TakesOutAndNamesTheViewWhoseImagesAreNoPair) {
 
 TEST(StereoCalibration, KeepsEveryViewOfHonestNoise) {
   for (const std::uint32_t seed : {5U, 6U}) {
-    const auto c =
-        calibrateStereo(simulatedViews(8, kBoard, 0.3, seed), kBoard, LensTerms::kFive, kSilent);
+    const auto c = calibrateStereo(simulatedViews(8, kBoard, 0.3, seed), kBoard, kFive, kSilent);
     EXPECT_TRUE(c.rejected.empty());
     EXPECT_NE(c.verdict.grade, Grade::kGood);
   }
@@ -85,13 +84,13 @@ TEST(StereoCalibration, KeepsEveryViewOfHonestNoise) {
 
 TEST(StereoCalibration, RefusesFewerThanFourViews) {
   EXPECT_THAT(failureOf(simulatedViews(3, kBoard, kSigma_px, 1)),
-              HasSubstr("only 3 of 3 pairs show the whole board"));
+              HasSubstr("only 3 of 3 pairs show the board"));
 }
 
 TEST(StereoCalibration, NeverCallsAFlatSetOfViewsGood) {
   const StereoViews views = simulatedViews(8, kBoard, kSigma_px, 1, 0.02);
   try {
-    const auto c = calibrateStereo(views, kBoard, LensTerms::kFive, kSilent);
+    const auto c = calibrateStereo(views, kBoard, kFive, kSilent);
     EXPECT_NE(c.verdict.grade, Grade::kGood) << c.verdict.sentence;
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("tilted"));
@@ -101,7 +100,7 @@ TEST(StereoCalibration, NeverCallsAFlatSetOfViewsGood) {
 TEST(StereoCalibration, StopsWhereTheHookThrows) {
   const StepHook stop = [](double, const std::string&) { throw Interrupted("stopped"); };
   EXPECT_THROW(
-      (void)calibrateStereo(simulatedViews(6, kBoard, 0.0, 1), kBoard, LensTerms::kFive, stop),
+      (void)calibrateStereo(simulatedViews(6, kBoard, 0.0, 1), kBoard, kFive, stop),
       Interrupted);
 }
 

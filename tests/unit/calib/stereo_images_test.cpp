@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const Chessboard kBoard{7, 4, 0.03};
+const Board kBoard{BoardKind::kChessboard, 7, 4, 0.03};
 const StepHook kSilent = [](double, const std::string&) {};
 
 class StereoImages : public ::testing::Test {
@@ -66,7 +66,8 @@ TEST_F(StereoImages, PairsByNameAndRejectsAPairWithoutTheBoard) {
   ASSERT_EQ(views.usable.size(), 1U);
   EXPECT_EQ(views.usable[0].left_name, "l1.pgm");
   ASSERT_EQ(views.rejected.size(), 1U);
-  EXPECT_EQ(views.rejected[0].reason, "l2.pgm: the image has no contrast");
+  EXPECT_EQ(views.rejected[0].reason,
+            "l2.pgm: all pixels are 128: was the shutter closed or a cable off?");
 }
 
 TEST_F(StereoImages, RefusesAnEmptyPattern) {
