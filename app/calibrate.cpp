@@ -1,5 +1,7 @@
 #include "app/calibrate.h"
 
+#include "app/calibrate_plan.h"
+#include "app/calibrate_robot.h"
 #include "app/calibrate_stereo.h"
 #include "app/options.h"
 
@@ -10,6 +12,8 @@ void addCalibrateCommand(CLI::App& app) {
                                    "Example: ringhook calibrate stereo --help");
   calibrate.require_subcommand(1);
   addCalibrateStereo(calibrate);
+  addCalibrateRobot(calibrate);
+  addCalibratePlan(calibrate);
 }
 
 }  // namespace ringhook

@@ -1,0 +1,44 @@
+#pragma once
+
+/// \file
+/// Robot-camera calibration from images of a tag plate, in one or two cameras: the way to take
+/// where images are at hand. Pose pairs throw away how well each image tells its plate's pose; a
+/// single small tag, for one, shows its distance and tilt ten times worse than its place. Here the
+/// corners themselves are explained (bundle adjustment):
+///   minimise  sum over views i, corners j, cameras  |pixel_ij - project(cMc1 hMc^-1 hMj_i jMt
+///             exp(d_i) X_j)|^2 / s_px^2  +  sum over i  d_i^T diag(s_t^2, s_r^2)^-1 d_i,
+/// where d_i is what the arm's own error does to the plate of view i. Without it the arm would have
+/// to be perfect: a plate seen by two cameras is measured better than most arms stand. s_px comes
+/// from what single views leave unexplained, s_t and s_r from the pose pairs' fit (hand_eye_fit.h).
+
+#include <string>
+#include <vector>
+
+#include "calib/solve/hand_eye.h"
+#include "core/hook_values.h"
+
+namespace ringhook {
+
+/// A plate seen while the arm stood still. `seen` is as a HookTracker delivers it, with the plate's
+/// frame t in place of o: load the plate without oMk, or take eMt to be that of o.
+struct PlateView {
+  std::string name;  ///< for messages
+  Pose fMe;          ///< flange in the robot reference
+  HookView seen;
+};
+
+struct PlateCalibration {
+  HandEyeResult result;             ///< pose, covariance, held-out errors, verdict
+  std::vector<PosePair> pairs;      ///< what each view says by itself, with its covariance
+  std::vector<RejectedPair> blind;  ///< views that tell no pose; index among the views given
+  double corner_sigma_px = 0.0;     ///< s_px, per axis
+  double rms_px = 0.0;              ///< of the corners under the result, arm errors d_i taken out
+  double arm_rms_px = 0.0;  ///< likewise with all d_i = 0: the arm's errors as the camera sees
+};
+
+/// The whole job: each view's own pose, the pairs' calibration, then the refinement above from its
+/// result over the views it uses. Throws as calibrateRobotCamera does.
+PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetup setup,
+                                    const StepHook& hook);
+
+}  // namespace ringhook

@@ -1,0 +1,123 @@
+#include "rendered_cell.h"
+
+#include "core/error.h"
+#include "rig/rectifier.h"
+#include "sim/arm_visuals.h"
+#include "sim/nominal_rig.h"
+#include "sim/scenario.h"
+#include "stereo/triangulation.h"
+#include "tracking/marker_tracker.h"
+
+namespace ringhook {
+namespace {
+
+using Eigen::Vector3d;
+
+const char* const kSource = RINGHOOK_SOURCE_DIR;
+
+CellConfig easyCell() { return loadCellConfig(std::string(kSource) + "/app/config/cell-sim.yaml"); }
+
+}  // namespace
+
+RenderedCell::RenderedCell(std::uint64_t seed) : seed_(seed), told_(nominalRig()) {
+  SimulatedPlaceOptions options;
+  options.seed = seed;
+  place_ = openSimulatedPlace(easyCell(), options);
+}
+
+Pose RenderedCell::facing(const Vector3d& position_f, const Vector3d& turn_e) {
+  Eigen::Matrix3d fRe;  // z_e along x_f, x_e down
+  fRe << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  Pose fMe = Pose::Identity();
+  fMe.linear() = fRe * makePoseThetaU(Vector3d::Zero(), turn_e).linear();
+  fMe.translation() = position_f;
+  return fMe;
+}
+
+std::optional<PlateView> RenderedCell::look(const Pose& fMe) {
+  const Outcome<Pose> reached = place_->moveFlange(fMe);
+  if (!reached) {
+    return std::nullopt;
+  }
+  const auto frame = place_->takePair();
+  if (!frame) {
+    return std::nullopt;
+  }
+  static const Rectifier rectifier(nominalRig());
+  MarkerTracker tracker(
+      loadTagPlate(std::string(kSource) + "/datasets/models/gripper/marker.yaml"));
+  const auto seen = tracker.track(rectifier.rectify(*frame), std::nullopt);
+  if (!seen || seen->cameras.size() != 2) {
+    return std::nullopt;
+  }
+  return PlateView{"pose", *reached, *seen};
+}
+
+std::vector<PlateView> RenderedCell::cube(double side_m) {
+  std::vector<PlateView> views;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                        (corner & 4) != 0 ? 0.5 : -0.5);
+    auto view = look(facing(Vector3d(0.30, 0.0, 0.62) + side_m * sign, Vector3d::Zero()));
+    if (!view) {
+      throw Error("corner " + std::to_string(corner) + " of the cube is out of reach or sight");
+    }
+    view->name = "corner " + std::to_string(corner);
+    views.push_back(*view);
+  }
+  return views;
+}
+
+std::vector<PlateView> RenderedCell::around(int count, std::uint64_t seed) {
+  std::mt19937_64 dice(seed);
+  const auto draw = [&dice](double most) {
+    return most * (2.0 * static_cast<double>(dice() >> 11U) * 0x1p-53 - 1.0);
+  };
+  std::vector<PlateView> views;
+  for (int tries = 0; tries < 20 * count && static_cast<int>(views.size()) < count; ++tries) {
+    const Vector3d place(0.30 + draw(0.10), draw(0.18), 0.62 + draw(0.12));
+    const Vector3d turn(draw(0.6), draw(0.6), draw(0.6));
+    if (auto view = look(facing(place, turn))) {
+      view->name = "pose " + std::to_string(views.size());
+      views.push_back(*view);
+    }
+  }
+  return views;
+}
+
+std::vector<PointPair> RenderedCell::pointsOf(const std::vector<PlateView>& views) {
+  std::vector<PointPair> points;
+  for (const PlateView& view : views) {
+    const CameraFeatures& left = view.seen.cameras[0];
+    const CameraFeatures& right = view.seen.cameras[1];
+    Vector3d middle = Vector3d::Zero();
+    Vector3d model = Vector3d::Zero();
+    double n = 0.0;
+    for (const CornerFeature& a : left.corners) {
+      for (const CornerFeature& b : right.corners) {
+        if (a.point_o == b.point_o) {
+          const auto point =
+              triangulateOptimal(left.camera, right.camera, a.pixel, b.pixel, a.sigma_px);
+          if (!point) {
+            throw Error(view.name + ": " + point.reason());
+          }
+          middle += point->point_c1;
+          model += a.point_o;
+          n += 1.0;
+        }
+      }
+    }
+    points.push_back({view.name, view.fMe * (eMg() * (model / n)), middle / n});
+  }
+  return points;
+}
+
+Pose RenderedCell::trueCamera() const {
+  const CellConfig cell = easyCell();
+  const RigErrors errors = loadScenario(cell.devices.scenario).calibration;
+  return *disturbedRig(told_, seed_, errors).fMc1;
+}
+
+Pose RenderedCell::trueTarget() { return eMg(); }
+
+}  // namespace ringhook
