@@ -7,13 +7,13 @@
 
 #include "app/experiment.h"
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/progress.h"
 #include "app/trajectory.h"
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence.h"
 #include "camera/visp_camera_xml.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "evaluation/sequence_outputs.h"
 #include "evaluation/summary_json.h"
@@ -187,6 +187,7 @@ void evaluateSequence(const SequenceFlags& flags) {
   const auto camera = openCamera(flags, sequence, rig.left);
   const bool both =
       flags.folder.empty() ? !flags.right.empty() : !sequence.frames.front().right.empty();
+  JsonFile json(flags.json);
   auto methods = makeMethods(flags, sequence, both && rig.right);
   SequenceOutputs outputs;
   outputs.sequence = sequence.name;
@@ -201,10 +202,8 @@ void evaluateSequence(const SequenceFlags& flags) {
   const fs::path folder =
       flags.out.empty() ? fs::path("out") / ("evaluate-" + sequence.name) : fs::path(flags.out);
   writeSequenceOutputs(folder, outputs);
-  if (!flags.json.empty()) {
-    writeFileAtomically(flags.json, summaryJson(outputs.summaries, outputs.sequence,
-                                                outputs.gate_mm, outputs.interrupted));
-  }
+  json.commit(
+      summaryJson(outputs.summaries, outputs.sequence, outputs.gate_mm, outputs.interrupted));
   conclude(outputs, folder);
 }
 

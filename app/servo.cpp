@@ -2,10 +2,10 @@
 
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/progress.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -83,21 +83,14 @@ void printEnd(const ServoReport& report, const ServoArguments& arguments) {
               report.picture.empty() ? "" : ", hanging.png");
 }
 
-void runCommand(const ServoArguments& arguments) {
-  const ServoJob job = jobFrom(arguments);
-  // Opened first: a place that cannot be written is found out before the work, not after it.
-  AtomicFile summary(job.out / "summary.json");
-  std::optional<AtomicFile> copy;
-  if (!arguments.json.empty()) {
-    copy.emplace(arguments.json);
-  }
+ServoReport runWithProgress(const ServoJob& job) {
   Progress progress("hanging rings");
   const auto tell = [&](int attempt, TaskPhase phase, double time_s) {
     // A hook takes the same steps every time, so phases tell how far it is.
     const double within = static_cast<double>(phase) / static_cast<double>(TaskPhase::kDone);
-    progress.show((attempt + within) / arguments.cycles,
+    progress.show((attempt + within) / job.cycles,
                   "hook " + std::to_string(attempt + 1) + ", " + phaseName(phase) +
-                      ", t = " + std::to_string(static_cast<int>(time_s)) + " s simulated");
+                      ", t = " + std::to_string(static_cast<int>(time_s)) + " s");
   };
   const auto done = [&](int attempt, const ServoAttempt& result) {
     progress.clear();
@@ -105,16 +98,13 @@ void runCommand(const ServoArguments& arguments) {
                 servoTableRow(attempt, result).c_str());
     std::fflush(stdout);
   };
-  const ServoReport report = runServo(job, interruptRequested(), tell, done);
+  ServoReport report = runServo(job, interruptRequested(), tell, done);
   progress.clear();
-  const std::string json = servoSummaryJson(job, report);
-  summary.stream() << json;
-  summary.commit();
-  if (copy) {
-    copy->stream() << json;
-    copy->commit();
-  }
-  printEnd(report, arguments);
+  return report;
+}
+
+/// Throws what makes the program end with an exit code other than 0.
+void conclude(const ServoReport& report, const ServoJob& job) {
   if (!report.failure.empty()) {
     throw DeviceError(report.failure);
   }
@@ -122,9 +112,23 @@ void runCommand(const ServoArguments& arguments) {
     throw Interrupted("stopped by the operator: the arm stands still, finished hooks are in " +
                       (job.out / "summary.json").string());
   }
-  if ((report.live ? ringsReleased(report) : ringsHung(report)) < arguments.cycles) {
+  if ((report.live ? ringsReleased(report) : ringsHung(report)) < job.cycles) {
     throw Error("not every ring hangs: the table above says why");
   }
+}
+
+void runCommand(const ServoArguments& arguments) {
+  const ServoJob job = jobFrom(arguments);
+  // Opened first: a place that cannot be written is found out before the work, not after it.
+  AtomicFile summary(job.out / "summary.json");
+  JsonFile copy(arguments.json);
+  const ServoReport report = runWithProgress(job);
+  const std::string json = servoSummaryJson(job, report);
+  summary.stream() << json;
+  summary.commit();
+  copy.commit(json);
+  printEnd(report, arguments);
+  conclude(report, job);
 }
 
 }  // namespace

@@ -3,14 +3,13 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/controller_report.h"
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/simulate_cell.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "sim/rx60_mishaps.h"
 #include "sim/rx60_server.h"
@@ -82,16 +81,10 @@ void runCommand(SimulateArguments arguments) {
   arguments.cell.mishaps = mishapsFrom(arguments);
   arguments.cell.seconds = arguments.seconds;
   // Opened first: a place that cannot be written is found out before the work, not after it.
-  std::optional<AtomicFile> summary;
-  if (!arguments.json.empty()) {
-    summary.emplace(arguments.json);
-  }
+  JsonFile summary(arguments.json);
   const nlohmann::ordered_json seen =
       arguments.arm_only ? serveArm(arguments) : serveCell(arguments.cell);
-  if (summary) {
-    summary->stream() << seen.dump(2) << "\n";
-    summary->commit();
-  }
+  summary.commit(seen.dump(2) + "\n");
 }
 
 void addArmOptions(CLI::App& command, SimulateArguments& arguments) {

@@ -62,6 +62,20 @@ std::optional<double> numberFromText(const std::string& text) {
   return value;
 }
 
+std::vector<double> numbersOfLine(const std::string& line, const std::string& where) {
+  std::istringstream stream(line);
+  std::vector<double> numbers;
+  std::string word;
+  while (stream >> word) {
+    const auto number = numberFromText(word);
+    if (!number) {
+      throw InputError(where + ": expected a number, found '" + word + "'");
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 CsvTable::CsvTable(const std::filesystem::path& path) : path_(path) {
   std::ifstream file(path);
   if (!file || isFolder(path)) {

@@ -51,6 +51,10 @@ class CsvTable {
 /// A finite number written in full, as in "1.5e-3"; nothing if `text` is anything else.
 [[nodiscard]] std::optional<double> numberFromText(const std::string& text);
 
+/// The numbers of a line without separators but blanks. Throws InputError that begins with `where`
+/// and names the word that is none.
+[[nodiscard]] std::vector<double> numbersOfLine(const std::string& line, const std::string& where);
+
 /// `text` cut at `separator`, blanks around each piece removed.
 [[nodiscard]] std::vector<std::string> splitText(const std::string& text, char separator);
 

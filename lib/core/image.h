@@ -33,6 +33,18 @@ inline Window intersect(const Window& a, const Window& b) {
   return {x0, y0, std::max(0, x1 - x0), std::max(0, y1 - y0)};
 }
 
+/// Smallest window that holds both; an empty one adds nothing.
+inline Window unite(const Window& a, const Window& b) {
+  if (a.empty() || b.empty()) {
+    return a.empty() ? b : a;
+  }
+  const int x0 = std::min(a.x, b.x);
+  const int y0 = std::min(a.y, b.y);
+  const int x1 = std::max(a.x + a.width, b.x + b.width);
+  const int y1 = std::max(a.y + a.height, b.y + b.height);
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
 /// 8-bit grey image, rows one after the other without padding.
 struct GrayImage {
   int width = 0;                     ///< [px]

@@ -97,11 +97,7 @@ CameraDevices readCameras(YamlFields fields) {
   if (cameras.left == cameras.right) {
     fields.refuse("right", "another camera than the left one");
   }
-  const std::string clock = fields.text("clock");
-  if (clock != "host" && clock != "own") {
-    fields.refuse("clock", "host or own, got " + clock);
-  }
-  cameras.host_clock = clock == "host";
+  cameras.host_clock = fields.choice("clock", {"own", "host"}) == 1;
   cameras.trigger = fields.text("trigger");
   cameras.exposure_s = fields.number("exposure_us", 1.0, 1e6) * 1e-6;
   if (fields.has("gain")) {
@@ -126,25 +122,18 @@ ControllerDevice readController(YamlFields fields) {
   port("io_port", arm.io_port);
   arm.gripper_module = fields.integer("gripper_module", 0, 1000);
   arm.gripper_pin = fields.integer("gripper_pin", 0, 1000);
-  const std::string closes = fields.text("gripper_closes");
-  if (closes != "on" && closes != "off") {
-    fields.refuse("gripper_closes", "on or off, got " + closes);
-  }
-  arm.gripper_closes_on = closes == "on";
+  arm.gripper_closes_on = fields.choice("gripper_closes", {"off", "on"}) == 1;
   fields.refuseUnknown();
   return arm;
 }
 
 DeviceConfig readDevices(YamlFields fields) {
   DeviceConfig devices;
-  const std::string kind = fields.text("kind");
-  if (kind != "simulated" && kind != "network") {
-    fields.refuse("kind", "simulated or network, got " + kind);
-  }
-  if (kind == "simulated") {
+  constexpr DeviceKind kKinds[] = {DeviceKind::kSimulated, DeviceKind::kNetwork};
+  devices.kind = kKinds[fields.choice("kind", {"simulated", "network"})];
+  if (devices.kind == DeviceKind::kSimulated) {
     devices.scenario = fields.path("scenario");
   } else {
-    devices.kind = DeviceKind::kNetwork;
     if (fields.has("scenario")) {
       devices.scenario = fields.path("scenario");
     }

@@ -26,17 +26,6 @@ HookFilterOptions filterOptions(const CellConfig& cell, const Pose& fMc1) {
   return options;
 }
 
-Window unite(const Window& a, const Window& b) {
-  if (a.empty() || b.empty()) {
-    return a.empty() ? b : a;
-  }
-  const int x0 = std::min(a.x, b.x);
-  const int y0 = std::min(a.y, b.y);
-  const int x1 = std::max(a.x + a.width, b.x + b.width);
-  const int y1 = std::max(a.y + a.height, b.y + b.height);
-  return {x0, y0, x1 - x0, y1 - y0};
-}
-
 }  // namespace
 
 double expectedInterval(const std::optional<double>& last_s, double rate_hz) {

@@ -94,29 +94,12 @@ double bestDensity(const Maker& make, std::span<const Trial> trials) {
   return best;
 }
 
-SwingPrior nothingKnown() {
-  SwingPrior prior;
-  prior.mean.setZero();
-  prior.covariance.setZero();
-  const auto know = [&prior](int place, double mean, double sigma) {
-    prior.mean(place) = mean;
-    prior.covariance(place, place) = sigma * sigma;
-  };
+/// As the filter begins, but for a belt of which the bound may know that it runs evenly.
+SwingPrior evenBelt() {
+  SwingPrior prior = unknownSwing(TrajectoryKind::kPoint);
   for (int axis = 0; axis < 3; ++axis) {
-    know(kSwingPivot + axis, 0.0, 10.0);
-    know(kSwingSpeed + axis, 0.0, 1.0);
+    prior.know(kSwingAcceleration + axis, 0.0, 0.0);
   }
-  for (int axis = 0; axis < 2; ++axis) {
-    know(kSwingAngle + axis, 0.0, 0.5);
-    know(kSwingRate + axis, 0.0, 3.0);
-    know(kSwingRest + axis, 0.0, 0.1);
-  }
-  know(kSwingLogLength, std::log(0.5), 1.0);
-  know(kSwingLengthRatio, 0.0, 0.03);
-  know(kSwingViscous, 0.05, 0.1);
-  know(kSwingDry, 0.01, 0.02);
-  know(kSwingLonger, 0.5, 1.0);
-  prior.reach_sigma = 0.2;
   return prior;
 }
 
@@ -133,7 +116,7 @@ double boundVariance(Trial trial) {
   }
   const SwingLaw law;
   const Eigen::Vector3d pivot_o = Eigen::Vector3d::Zero();
-  const SwingPrior prior = nothingKnown();
+  const SwingPrior prior = evenBelt();
   const auto fit = fitSwing(seen, prior, guessSwing(seen, prior, law, pivot_o), law, pivot_o);
   if (!fit) {
     return std::numeric_limits<double>::quiet_NaN();

@@ -59,16 +59,7 @@ std::size_t numbersInLine(const fs::path& file) {
 }
 
 Eigen::Vector3d kittiPosition(const std::string& line, const std::string& where) {
-  std::istringstream stream(line);
-  std::vector<double> v;
-  std::string word;
-  while (stream >> word) {
-    const auto number = numberFromText(word);
-    if (!number) {
-      throw InputError(where + ": expected a number, found '" + word + "'");
-    }
-    v.push_back(*number);
-  }
+  const std::vector<double> v = numbersOfLine(line, where);
   if (v.size() != kKitti) {
     throw InputError(where + ": expected 12 numbers as in the first line, found " +
                      std::to_string(v.size()));

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "camera/csv_table.h"
 #include "core/atomic_file.h"
@@ -13,16 +12,7 @@ namespace ringhook {
 namespace {
 
 StampedPose poseOfLine(const std::string& line, const std::string& where) {
-  std::istringstream stream(line);
-  std::vector<double> v;
-  std::string word;
-  while (stream >> word) {
-    const auto number = numberFromText(word);
-    if (!number) {
-      throw InputError(where + ": expected a number, found '" + word + "'");
-    }
-    v.push_back(*number);
-  }
+  const std::vector<double> v = numbersOfLine(line, where);
   if (v.size() != 8) {
     throw InputError(where + ": expected time tx ty tz qx qy qz qw, found " +
                      std::to_string(v.size()) + " numbers");

@@ -39,8 +39,8 @@ class HookFilter {
   /// positive definite", "late or duplicate time stamp" (kSphericalPendulum: "duplicate time stamp"
   /// and "too late"), "lost". Refuses "outside the gate" and leaves the state predicted to the
   /// fix's time; `lost_after` of these in a row make lost(), and so does a gap of more than
-  /// max_horizon_s
-  /// ("gap too long"). A fix of a neighbour on the belt is refused as "another hook".
+  /// max_horizon_s ("gap too long").
+  /// A fix of a neighbour on the belt is refused as "another hook".
   Outcome<FilterUpdate> update(const HookFix& fix);
 
   /// True once enough fixes over enough time were taken and the hook is not lost; with

@@ -14,37 +14,26 @@ constexpr double kBetweenSpeeds = 0.02;  // of the belt from hook to hook, relat
 constexpr double kAcrossBelt = 0.1;      // of a changing belt's acceleration: its line is not exact
 constexpr double kRunning = 0.02;        // [m/s]; slower, the belt's speed says nothing
 
-void know(SwingPrior& prior, int place, double mean, double sigma) {
-  prior.mean(place) = mean;
-  prior.covariance(place, place) = sigma * sigma;
-}
-
-double sigmaOf(const SwingBelief& belief, int place) {
-  return std::sqrt(std::max(0.0, belief.covariance(place, place)));
-}
-
 SwingPrior priorOf(const HookFilterOptions& o) {
   SwingPrior prior;
-  prior.mean.setZero();
-  prior.covariance.setZero();
   const double w = std::sqrt(o.gravity / o.pendulum_length_m);
   for (int axis = 0; axis < 3; ++axis) {
-    know(prior, kSwingPivot + axis, 0.0, kAnywhere);
-    know(prior, kSwingSpeed + axis, 0.0, o.speed_sigma);
-    know(prior, kSwingAcceleration + axis, 0.0, SwingNoise().pivot_acceleration(axis));
+    prior.know(kSwingPivot + axis, 0.0, kAnywhere);
+    prior.know(kSwingSpeed + axis, 0.0, o.speed_sigma);
+    prior.know(kSwingAcceleration + axis, 0.0, SwingNoise().pivot_acceleration(axis));
   }
   for (int axis = 0; axis < 2; ++axis) {
-    know(prior, kSwingAngle + axis, 0.0, o.swing_sigma);
-    know(prior, kSwingRate + axis, 0.0, w * o.swing_sigma);
-    know(prior, kSwingRest + axis, 0.0, o.rest_sigma);
+    prior.know(kSwingAngle + axis, 0.0, o.swing_sigma);
+    prior.know(kSwingRate + axis, 0.0, w * o.swing_sigma);
+    prior.know(kSwingRest + axis, 0.0, o.rest_sigma);
   }
-  know(prior, kSwingLogLength, std::log(o.pendulum_length_m),
-       o.length_sigma_m / o.pendulum_length_m);
-  know(prior, kSwingLengthRatio, 0.0, kLengthRatio);
-  know(prior, kSwingViscous, o.damping_kg_per_s / o.mass_kg, o.viscous_sigma);
-  know(prior, kSwingDry, 0.0, o.dry_sigma);
-  know(prior, kSwingLonger, 0.0, o.longer_sigma_m);
-  know(prior, kSwingYaw, 0.0, kAnyYaw);
+  prior.know(kSwingLogLength, std::log(o.pendulum_length_m),
+             o.length_sigma_m / o.pendulum_length_m);
+  prior.know(kSwingLengthRatio, 0.0, kLengthRatio);
+  prior.know(kSwingViscous, o.damping_kg_per_s / o.mass_kg, o.viscous_sigma);
+  prior.know(kSwingDry, 0.0, o.dry_sigma);
+  prior.know(kSwingLonger, 0.0, o.longer_sigma_m);
+  prior.know(kSwingYaw, 0.0, kAnyYaw);
   return prior;
 }
 
@@ -66,7 +55,7 @@ SwingFilterOptions swingOptions(const HookFilterOptions& options) {
 SwingFilterOptions swingOptionsAfter(const HookFilterOptions& options, const SwingBelief& learnt) {
   SwingFilterOptions swing = swingOptions(options);
   const auto carry = [&](int place, double spread) {
-    know(swing.prior, place, learnt.mean(place), std::hypot(sigmaOf(learnt, place), spread));
+    swing.prior.know(place, learnt.mean(place), std::hypot(sigmaOf(learnt, place), spread));
   };
   carry(kSwingLogLength, options.next_length_sigma);
   carry(kSwingLengthRatio, options.next_length_sigma);

@@ -6,11 +6,12 @@
 ///   x_k = A x_{k-1} + e, e ~ N(0, Q)   (3.3)      y_k = C x_k + d, d ~ N(0, R)   (3.4)
 ///   x- = A x (3.5)     P- = A P A^T + Q (3.6)
 ///   x = x- + K (y - C x-) (3.7)     K = P- C^T (C P- C^T + R)^-1 (3.8)
-/// The report's covariance update P = (I - K C) P- (3.13) is written in Joseph's form
-/// P = (I - K C) P- (I - K C)^T + K R K^T, equal for the optimal K and symmetric positive definite
-/// also after rounding (Bucy and Joseph, 1968). The limits that the report gives (3.9 to 3.12:
-/// R -> 0 trusts the measurement, P- -> 0 the prediction) are tests.
-/// Unlike the report, R need not be diagonal. Sizes are static, or Eigen::Dynamic.
+/// The report's covariance update P = (I - K C) P- (3.13) is replaced by Joseph's form
+/// P = (I - K C) P- (I - K C)^T + K R K^T, equal for the optimal K and insensitive to errors of K
+/// in first order (Bucy and Joseph, 1968); multiplied out, and made symmetric after rounding. The
+/// limits that the report gives (3.9 to 3.12: R -> 0 trusts the measurement, P- -> 0 the
+/// prediction) are tests. Unlike the report, R need not be diagonal. Sizes are static, or
+/// Eigen::Dynamic.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -32,48 +32,37 @@ SwingSight sightOf(TrajectoryKind kind) {
   return kSights[static_cast<int>(kind)];
 }
 
-void know(SwingPrior& prior, int place, double mean, double sigma) {
-  prior.mean(place) = mean;
-  prior.covariance(place, place) = sigma * sigma;
-}
-
-double sigmaOf(const SwingBelief& belief, int place) {
-  return std::sqrt(std::max(0.0, belief.covariance(place, place)));
-}
-
 SwingPrior angularPrior(TrajectoryKind kind) {
   SwingPrior prior;
-  prior.mean.setZero();
-  prior.covariance.setZero();
-  know(prior, kSwingLogLength, std::log(kMiddleLength), 1.0);
-  know(prior, kSwingViscous, 0.05, 0.3);
-  know(prior, kSwingDry, 0.01, 0.3);
+  prior.know(kSwingLogLength, std::log(kMiddleLength), 1.0);
+  prior.know(kSwingViscous, 0.05, 0.3);
+  prior.know(kSwingDry, 0.01, 0.3);
   for (int axis = 0; axis < (kind == TrajectoryKind::kTwoAngles ? 2 : 1); ++axis) {
-    know(prior, kSwingAngle + axis, 0.0, 0.5 * std::numbers::pi);
-    know(prior, kSwingRate + axis, 0.0, 10.0);
+    prior.know(kSwingAngle + axis, 0.0, 0.5 * std::numbers::pi);
+    prior.know(kSwingRate + axis, 0.0, 10.0);
   }
   if (kind == TrajectoryKind::kTwoAngles) {
-    know(prior, kSwingLengthRatio, 0.0, 0.03);
+    prior.know(kSwingLengthRatio, 0.0, 0.03);
   }
   return prior;
 }
 
 SwingPrior pointPrior(TrajectoryKind kind) {
   SwingPrior prior = angularPrior(TrajectoryKind::kTwoAngles);
-  know(prior, kSwingViscous, 0.05, 0.1);
-  know(prior, kSwingDry, 0.01, 0.02);
+  prior.know(kSwingViscous, 0.05, 0.1);
+  prior.know(kSwingDry, 0.01, 0.02);
   for (int axis = 0; axis < 3; ++axis) {
-    know(prior, kSwingPivot + axis, 0.0, 10.0);
-    know(prior, kSwingSpeed + axis, 0.0, 1.0);
-    know(prior, kSwingAcceleration + axis, 0.0,
-         kind == TrajectoryKind::kPoint ? SwingNoise().pivot_acceleration(axis) : 1.0);
+    prior.know(kSwingPivot + axis, 0.0, 10.0);
+    prior.know(kSwingSpeed + axis, 0.0, 1.0);
+    prior.know(kSwingAcceleration + axis, 0.0,
+               kind == TrajectoryKind::kPoint ? SwingNoise().pivot_acceleration(axis) : 1.0);
   }
   for (int axis = 0; axis < 2; ++axis) {
-    know(prior, kSwingAngle + axis, 0.0, 0.5);
-    know(prior, kSwingRate + axis, 0.0, 3.0);
-    know(prior, kSwingRest + axis, 0.0, kind == TrajectoryKind::kPoint ? kOffLine : 0.0);
+    prior.know(kSwingAngle + axis, 0.0, 0.5);
+    prior.know(kSwingRate + axis, 0.0, 3.0);
+    prior.know(kSwingRest + axis, 0.0, kind == TrajectoryKind::kPoint ? kOffLine : 0.0);
   }
-  know(prior, kSwingLonger, 0.5, kind == TrajectoryKind::kPoint ? 1.0 : 10.0);
+  prior.know(kSwingLonger, 0.5, kind == TrajectoryKind::kPoint ? 1.0 : 10.0);
   prior.reach_sigma = 0.2;
   return prior;
 }
@@ -81,7 +70,7 @@ SwingPrior pointPrior(TrajectoryKind kind) {
 SwingFilterOptions filterOptions(TrajectoryKind kind, const SwingMotionOptions& options) {
   SwingFilterOptions swing;
   swing.law.gravity = options.gravity;
-  swing.prior = isAngular(kind) ? angularPrior(kind) : pointPrior(kind);
+  swing.prior = unknownSwing(kind);
   if (isAngular(kind)) {
     swing.steady.swing_density = kAngleDensity;
     swing.batch_s = 2.0;
@@ -216,8 +205,8 @@ class SwingMotion final : public MotionModel {
     const SwingBelief learnt = filter_.state()->belief;
     const auto carry = [&](int place, double spread) {
       const double wide = std::sqrt(again.prior.covariance(place, place));
-      know(again.prior, place, learnt.mean(place),
-           std::min(wide, std::hypot(sigmaOf(learnt, place), spread)));
+      again.prior.know(place, learnt.mean(place),
+                       std::min(wide, std::hypot(sigmaOf(learnt, place), spread)));
     };
     carry(kSwingLogLength, kDoubtedLength);
     carry(kSwingLonger, kDoubtedLength * learnt.mean(kSwingLonger));
@@ -238,6 +227,10 @@ class SwingMotion final : public MotionModel {
 };
 
 }  // namespace
+
+SwingPrior unknownSwing(TrajectoryKind kind) {
+  return isAngular(kind) ? angularPrior(kind) : pointPrior(kind);
+}
 
 std::unique_ptr<MotionModel> makeSwingMotion(TrajectoryKind kind,
                                              const SwingMotionOptions& options) {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "prediction/motion_model.h"
+#include "prediction/swing_start.h"
 
 namespace ringhook {
 
@@ -16,6 +17,9 @@ struct SwingMotionOptions {
   double sample_sigma = 1e-3;  ///< measurement noise of each number [rad or m], > 0
   double gravity = 9.81;       ///< [m/s^2]
 };
+
+/// What is believed of a recording before its first sample: next to nothing.
+SwingPrior unknownSwing(TrajectoryKind kind);
 
 /// "spherical-pendulum".
 std::unique_ptr<MotionModel> makeSwingMotion(TrajectoryKind kind,

@@ -22,6 +22,15 @@ namespace ringhook {
 /// What is known before the first measurement, at its instant. Zero variance: known, not estimated.
 /// Independent of each other but for the reach: only the diagonal of the covariance is used.
 struct SwingPrior : SwingBelief {
+  /// Everything zero, and known to be.
+  SwingPrior() : SwingBelief{SwingVector::Zero(), SwingMatrix::Zero()} {}
+
+  /// \param place of the state vector. \param sigma standard deviation, in the state's unit.
+  void know(int place, double value, double sigma) {
+    mean(place) = value;
+    covariance(place, place) = sigma * sigma;
+  }
+
   /// How far the tracked point lies below the pivot, per effective length: 1 for a weight on a
   /// string, 1.5 for the lower end of a rod. A small swing at even speed hardly tells; a belt that
   /// stops needs it. Standard deviation of its logarithm; 0: nothing is known of it.

@@ -12,6 +12,8 @@
 /// The tracked point o: fPo = pivot - fRo * (pivot_o + (0, 0, longer)).
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 #include "prediction/linear_kalman.h"
 
@@ -38,5 +40,10 @@ enum SwingPlace : int {
 using SwingVector = Eigen::Matrix<double, kSwingStates, 1>;
 using SwingMatrix = Eigen::Matrix<double, kSwingStates, kSwingStates>;
 using SwingBelief = Gaussian<kSwingStates>;
+
+/// Standard deviation of one state, in its unit.
+inline double sigmaOf(const SwingBelief& belief, int place) {
+  return std::sqrt(std::max(0.0, belief.covariance(place, place)));
+}
 
 }  // namespace ringhook

@@ -50,13 +50,6 @@ Window passage(const Solid& from, const Solid& to, const Pinhole& eye, const Win
   return intersect(around(both), plane);
 }
 
-Window unite(const Window& a, const Window& b) {
-  const int x = std::min(a.x, b.x);
-  const int y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x,
-          std::max(a.y + a.height, b.y + b.height) - y};
-}
-
 /// Adds a rectangle, united with all that it meets, until it meets none.
 void add(std::vector<Window>& parts, Window part) {
   for (auto other = parts.begin(); other != parts.end();) {

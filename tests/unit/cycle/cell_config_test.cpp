@@ -203,7 +203,7 @@ TEST(CellConfig, DevicesOfAnUnknownKindAreRefused) {
   const fs::path file = scratch.write("cell.yaml", text);
   EXPECT_THAT(loadError(file),
               AllOf(HasSubstr(file.string()), HasSubstr("devices.kind"),
-                    HasSubstr("expected simulated or network"), HasSubstr("hydraulic")));
+                    HasSubstr("expected one of simulated, network"), HasSubstr("hydraulic")));
 }
 
 TEST(CellConfig, DevicesOnANetworkAreWhatTheirFileSays) {
@@ -231,10 +231,10 @@ TEST(CellConfig, BadDevicesOnANetworkAreNamed) {
     return loadError(scratch.write("cell.yaml", text));
   };
   EXPECT_THAT(refusal("right:", "    right: 127.0.0.1"), HasSubstr("devices.cameras.right"));
-  EXPECT_THAT(refusal("clock:", "    clock: sundial"), HasSubstr("expected host or own"));
+  EXPECT_THAT(refusal("clock:", "    clock: sundial"), HasSubstr("expected one of own, host"));
   EXPECT_THAT(refusal("exposure_us:", "    exposure_us: 0"), HasSubstr("exposure_us"));
   EXPECT_THAT(refusal("gripper_closes:", "    gripper_closes: maybe"),
-              HasSubstr("expected on or off"));
+              HasSubstr("expected one of off, on"));
   EXPECT_THAT(refusal("address:", ""), HasSubstr("field devices.arm.address is missing"));
   EXPECT_THAT(refusal("gripper_pin:", "    gripper_pin: 0\n    motion_port: 70000"),
               HasSubstr("devices.arm.motion_port"));

@@ -5,21 +5,14 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "swing_trial.h"
+
 namespace ringhook {
 namespace {
 
 constexpr SwingSight kSights[] = {SwingSight::kPose, SwingSight::kPoint, SwingSight::kPointAndPivot,
                                   SwingSight::kOneAngle, SwingSight::kTwoAngles};
 const Eigen::Vector3d kPivot(0.01, -0.02, 0.45);
-
-SwingVector anyState() {
-  SwingVector state = SwingVector::Zero();
-  state.segment<9>(kSwingPivot) << 0.4, -0.5, 1.0, 0.01, 0.2, -0.02, 0.3, -0.8, 0.5;
-  state.segment<4>(kSwingAngle) << 0.4, -0.3, 1.3, -0.9;
-  state(kSwingLogLength) = std::log(0.35);
-  state.segment<7>(kSwingLengthRatio) << 0.05, 0.04, 0.02, 0.1, 0.01, -0.02, 0.3;
-  return state;
-}
 
 /// What `sight` shows of a state, with covariance 1e-4.
 SwingMeasurement seen(const SwingVector& state, SwingSight sight) {

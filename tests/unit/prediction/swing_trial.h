@@ -14,6 +14,9 @@ namespace ringhook {
 
 constexpr double kTrialFrame = 0.02;  // [s]
 
+/// A state in which nothing is zero and no two axes are alike.
+SwingVector anyState();
+
 /// Options of a world in which a hook with usual friction swings by 5 degrees below a belt.
 HookWorldOptions usualHook();
 

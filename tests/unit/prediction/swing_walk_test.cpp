@@ -5,17 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "swing_trial.h"
+
 namespace ringhook {
 namespace {
-
-SwingVector anyState() {
-  SwingVector state = SwingVector::Zero();
-  state.segment<9>(kSwingPivot) << 0.4, -0.5, 1.0, 0.01, 0.2, -0.02, 0.3, -0.8, 0.5;
-  state.segment<4>(kSwingAngle) << 0.4, -0.3, 1.3, -0.9;
-  state(kSwingLogLength) = std::log(0.35);
-  state.segment<7>(kSwingLengthRatio) << 0.05, 0.04, 0.02, 0.1, 0.01, -0.02, 0.3;
-  return state;
-}
 
 SwingBelief certain() { return {anyState(), SwingMatrix::Zero()}; }
 

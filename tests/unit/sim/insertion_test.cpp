@@ -10,21 +10,6 @@
 namespace ringhook {
 namespace {
 
-/// Standing belt, hook at rest at y = 0, gripper with a ring at `oMr`.
-CellOptions standingCell(const Pose& oMr) {
-  CellOptions options;
-  options.hook.count = 1;
-  options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
-  options.hook.length_spread = 0.0;
-  options.belt.speed = options.belt.start_y = options.belt.entry_y = 0.0;
-  options.arm.zero_error_sigma = 0.0;
-  options.gripper.feeder_clearance = 0.0;
-  const CellWorld probe(options);
-  options.arm.initial_joints =
-      jointsForRing(options, truth(probe).hooks[0].fMo * oMr, options.arm.initial_joints);
-  return options;
-}
-
 RingTruth releaseAt(const Pose& oMr) {
   CellWorld world(standingCell(oMr));
   SimArm arm(world);

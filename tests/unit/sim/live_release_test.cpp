@@ -10,24 +10,15 @@
 namespace ringhook {
 namespace {
 
-/// Standing belt, hook at rest at y = 0, gripper with a ring at `oMr`.
-CellOptions standingCell(const Pose& oMr) {
-  CellOptions options;
+CellOptions liveCell(const Pose& oMr) {
+  CellOptions options = standingCell(oMr);
   options.physics_step = kLivePhysicsStep;
-  options.hook.count = options.ring.count = 1;
-  options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
-  options.hook.length_spread = 0.0;
-  options.belt.speed = options.belt.start_y = options.belt.entry_y = 0.0;
-  options.arm.zero_error_sigma = 0.0;
-  options.gripper.feeder_clearance = 0.0;
-  const CellWorld probe(options);
-  options.arm.initial_joints =
-      jointsForRing(options, truth(probe).hooks[0].fMo * oMr, options.arm.initial_joints);
+  options.ring.count = 1;
   return options;
 }
 
 RingTruth releaseAt(const Pose& oMr) {
-  CellWorld world(standingCell(oMr));
+  CellWorld world(liveCell(oMr));
   world.setGripper(true);
   world.advanceTo(Time::fromSeconds(0.2));
   EXPECT_EQ(truth(world).held_ring, 0);
@@ -52,7 +43,7 @@ TEST(LiveStep, ARingBesideTheTipFallsToTheFloor) {
 }
 
 TEST(LiveStep, TheArmHoldsItsSetPoint) {
-  CellWorld world(standingCell(shifted(-0.1, 0.035, 0.05)));
+  CellWorld world(liveCell(shifted(-0.1, 0.035, 0.05)));
   world.setGripper(true);
   JointVector expected = world.jointReading();
   const JointVector velocity = JointVector::Constant(0.1);

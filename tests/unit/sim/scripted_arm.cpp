@@ -37,6 +37,20 @@ Pose ringFromJoints(const CellOptions& options, const JointVector& q) {
   return rx60::forward(rx60::rx60(), q) * gripPose(options);
 }
 
+CellOptions standingCell(const Pose& oMr) {
+  CellOptions options;
+  options.hook.count = 1;
+  options.hook.swing_about_x = options.hook.swing_about_y = 0.0;
+  options.hook.length_spread = 0.0;
+  options.belt.speed = options.belt.start_y = options.belt.entry_y = 0.0;
+  options.arm.zero_error_sigma = 0.0;
+  options.gripper.feeder_clearance = 0.0;
+  const CellWorld probe(options);
+  options.arm.initial_joints =
+      jointsForRing(options, truth(probe).hooks[0].fMo * oMr, options.arm.initial_joints);
+  return options;
+}
+
 Pose shifted(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
 
 void ScriptedArm::moveTo(const Pose& oMr, double duration, const std::function<void()>& watch) {

@@ -20,6 +20,9 @@ JointVector jointsForRing(const CellOptions& options, const Pose& fMr,
 /// Pose of the ring by nominal kinematics.
 Pose ringFromJoints(const CellOptions& options, const JointVector& q);
 
+/// A cell with a standing belt, one hook at rest at y = 0, and a gripper with a ring at `oMr`.
+CellOptions standingCell(const Pose& oMr);
+
 /// A pose with the axes of f.
 Pose shifted(double x, double y, double z);
 
