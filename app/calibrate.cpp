@@ -1,5 +1,6 @@
 #include "app/calibrate.h"
 
+#include "app/calibrate_exchange.h"
 #include "app/calibrate_plan.h"
 #include "app/calibrate_robot.h"
 #include "app/calibrate_stereo.h"
@@ -14,6 +15,7 @@ void addCalibrateCommand(CLI::App& app) {
   addCalibrateStereo(calibrate);
   addCalibrateRobot(calibrate);
   addCalibratePlan(calibrate);
+  addCalibrateExchange(calibrate);
 }
 
 }  // namespace ringhook

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file_kind.h"
+#include "rig/opencv_keys.h"
 #include "rig/stereo_rig.h"
 #include "rig/unknown_entries.h"
 
@@ -29,108 +30,13 @@ std::string readText(const fs::path& path) {
   return text;
 }
 
-/// Typed access to the top-level keys; every failure names file, key and the expected shape.
-class KeyReader {
- public:
-  KeyReader(const cv::FileNode& root, std::string file) : root_(root), file_(std::move(file)) {}
-
-  [[nodiscard]] bool has(const std::string& key) const { return !root_[key].empty(); }
-
-  [[nodiscard]] int integer(const std::string& key) const {
-    const cv::FileNode node = root_[key];
-    if (!node.isInt()) {
-      fail(key, "an integer");
-    }
-    return static_cast<int>(node);
-  }
-
-  [[nodiscard]] std::optional<double> number(const std::string& key) const {
-    if (!has(key)) {
-      return std::nullopt;
-    }
-    const cv::FileNode node = root_[key];
-    if (!node.isInt() && !node.isReal()) {
-      fail(key, "a number");
-    }
-    return static_cast<double>(node);
-  }
-
-  [[nodiscard]] std::optional<std::string> text(const std::string& key) const {
-    if (!has(key)) {
-      return std::nullopt;
-    }
-    if (!root_[key].isString()) {
-      fail(key, "a string in quotes");
-    }
-    return static_cast<std::string>(root_[key]);
-  }
-
-  /// Matrix of exactly this shape.
-  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& key, int rows, int cols) const {
-    const std::string shape = std::to_string(rows) + "x" + std::to_string(cols) + " matrix";
-    Eigen::MatrixXd m = anyMatrix(key, shape);
-    if (m.rows() != rows || m.cols() != cols) {
-      fail(key,
-           "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
-    }
-    return m;
-  }
-
-  /// Row or column of 0 to `most` numbers.
-  [[nodiscard]] Eigen::VectorXd vector(const std::string& key, int most) const {
-    const std::string shape = "row or column of at most " + std::to_string(most) + " numbers";
-    Eigen::MatrixXd m = anyMatrix(key, shape);
-    if ((m.rows() > 1 && m.cols() > 1) || m.size() > most) {
-      fail(key,
-           "a " + shape + ", not " + std::to_string(m.rows()) + "x" + std::to_string(m.cols()));
-    }
-    return m.reshaped();
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
-    throw InputError(file_ + ": key " + key + (has(key) ? " must be " : " is missing, expected ") +
-                     expected);
-  }
-
- private:
-  [[nodiscard]] Eigen::MatrixXd anyMatrix(const std::string& key, const std::string& shape) const {
-    const cv::FileNode node = root_[key];
-    const std::string expected = "a " + shape + " (!!opencv-matrix of type d or f)";
-    if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt() || !node["dt"].isString() ||
-        !node["data"].isSeq()) {
-      fail(key, expected);
-    }
-    const int rows = static_cast<int>(node["rows"]);
-    const int cols = static_cast<int>(node["cols"]);
-    const std::string type = static_cast<std::string>(node["dt"]);
-    const bool sane =
-        rows >= 0 && cols >= 0 && rows <= 64 && cols <= 64 && (type == "d" || type == "f") &&
-        node["data"].size() == static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols);
-    if (!sane) {
-      fail(key, expected);
-    }
-    Eigen::MatrixXd m(rows, cols);
-    for (int i = 0; i < rows * cols; ++i) {
-      const cv::FileNode value = node["data"][i];
-      if (!value.isInt() && !value.isReal()) {
-        fail(key, expected);
-      }
-      m(i / cols, i % cols) = static_cast<double>(value);
-    }
-    return m;
-  }
-
-  cv::FileNode root_;
-  std::string file_;
-};
-
 /// The rotation closest to a matrix already checked to be nearly one (polar decomposition).
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-CameraModel readCamera(const KeyReader& keys, const std::string& side) {
+CameraModel readCamera(const OpenCvKeys& keys, const std::string& side) {
   CameraModel camera;
   camera.width = keys.integer("image_width");
   camera.height = keys.integer("image_height");
@@ -139,7 +45,7 @@ CameraModel readCamera(const KeyReader& keys, const std::string& side) {
   return camera;
 }
 
-void readPair(const KeyReader& keys, StereoRig& rig) {
+void readPair(const OpenCvKeys& keys, StereoRig& rig) {
   rig.right = readCamera(keys, "2");
   rig.c2Mc1.linear() = keys.matrix("R", 3, 3);
   const Eigen::VectorXd T = keys.vector("T", 3);
@@ -149,7 +55,7 @@ void readPair(const KeyReader& keys, StereoRig& rig) {
   rig.c2Mc1.translation() = T;
 }
 
-void readEvidence(const KeyReader& keys, StereoRig& rig) {
+void readEvidence(const OpenCvKeys& keys, StereoRig& rig) {
   rig.rms_px = keys.number("rms_px");
   rig.heldout_vertical_disparity_px = keys.number("heldout_vertical_disparity_px");
   rig.board = keys.text("board");
@@ -160,7 +66,7 @@ void readEvidence(const KeyReader& keys, StereoRig& rig) {
   }
 }
 
-StereoRig readRig(const KeyReader& keys) {
+StereoRig readRig(const OpenCvKeys& keys) {
   StereoRig rig;
   rig.left = readCamera(keys, "1");
   if (keys.has("K2") || keys.has("D2") || keys.has("R") || keys.has("T")) {
@@ -229,7 +135,7 @@ StereoRig loadRig(const fs::path& path) {
     if (!file.isOpened() || !file.root().isMap()) {
       throw InputError(path.string() + ": is not an OpenCV YAML file with keys at the top");
     }
-    StereoRig rig = readRig(KeyReader(file.root(), path.string()));
+    StereoRig rig = readRig(OpenCvKeys(file.root(), path.string()));
     checkRig(rig, path.string());
     rig.c2Mc1.linear() = nearestRotation(rig.c2Mc1.linear());
     if (rig.fMc1) {
