@@ -4,6 +4,7 @@
 #include "app/calibrate_plan.h"
 #include "app/calibrate_robot.h"
 #include "app/calibrate_stereo.h"
+#include "app/calibrate_time.h"
 #include "app/options.h"
 
 namespace ringhook {
@@ -14,6 +15,7 @@ void addCalibrateCommand(CLI::App& app) {
   calibrate.require_subcommand(1);
   addCalibrateStereo(calibrate);
   addCalibrateRobot(calibrate);
+  addCalibrateTime(calibrate);
   addCalibratePlan(calibrate);
   addCalibrateExchange(calibrate);
 }
