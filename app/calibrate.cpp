@@ -5,6 +5,7 @@
 #include "app/calibrate_robot.h"
 #include "app/calibrate_stereo.h"
 #include "app/calibrate_time.h"
+#include "app/calibrate_verify.h"
 #include "app/options.h"
 
 namespace ringhook {
@@ -16,6 +17,7 @@ void addCalibrateCommand(CLI::App& app) {
   addCalibrateStereo(calibrate);
   addCalibrateRobot(calibrate);
   addCalibrateTime(calibrate);
+  addCalibrateVerify(calibrate);
   addCalibratePlan(calibrate);
   addCalibrateExchange(calibrate);
 }
