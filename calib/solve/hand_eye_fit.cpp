@@ -17,6 +17,8 @@ constexpr double kGate = 22.46;          // chi-square, 6 degrees, 99.9 %
 constexpr double kCauchy = 12.59;        // the same, 95 %: weight one half
 constexpr double kMedianRadius = 1.538;  // median length of a standard normal vector in space
 constexpr PairNoise kLeastNoise{5e-6, 5e-6};
+constexpr double kOnePercent = -2.326;  // point of the normal law
+constexpr int kNoiseRounds = 10;
 constexpr double kUndetermined = 1e-12;  // least over greatest eigenvalue of the scaled matrix
 
 // Inverse of the left Jacobian of SO(3) at -w: d thetaU(R exp(b)) / db.
@@ -168,22 +170,30 @@ PairNoise noiseFromMedians(const HandEye& pose, const std::vector<PosePair>& pai
   return atLeast({scale * median(t), scale * median(r)});
 }
 
+// Expectation maximisation (Dempster, Laird, Rubin 1977) for s_t and s_r: the error e of a pair is
+// the view's, of covariance V, plus another d, of covariance S; given e, d has the mean S C^-1 e
+// and the covariance S - S C^-1 S. Without V its fixed point is the mean square of e.
 PairNoise noiseFromMoments(const HandEye& pose, const std::vector<PosePair>& pairs,
-                           const std::vector<bool>& used, EyeSetup setup) {
-  double t2 = 0.0;
-  double r2 = 0.0;
-  double n = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (used[i]) {
-      const PairError e = pairError(pose, pairs[i], setup);
-      const Matrix6 V = pairCovariance(pairs[i], {});
-      t2 += e.translation_m * e.translation_m - V.topLeftCorner<3, 3>().trace();
-      r2 += e.rotation_rad * e.rotation_rad - V.bottomRightCorner<3, 3>().trace();
-      n += 1.0;
+                           const std::vector<bool>& used, EyeSetup setup, PairNoise noise) {
+  for (int round = 0; round < kNoiseRounds; ++round) {
+    double t2 = 0.0;
+    double r2 = 0.0;
+    double n = 0.0;
+    const Matrix6 S = pairCovariance({}, noise);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (used[i]) {
+        const Matrix6 gain = S * pairCovariance(pairs[i], noise).inverse();
+        const Twist d = gain * linearise(pose, pairs[i], setup).e;
+        const Matrix6 square = S - gain * S + d * d.transpose();
+        t2 += square.topLeftCorner<3, 3>().trace();
+        r2 += square.bottomRightCorner<3, 3>().trace();
+        n += 1.0;
+      }
     }
+    const double freedom = 3.0 * n * redundancyShare(n);
+    noise = atLeast({std::sqrt(t2 / freedom), std::sqrt(r2 / freedom)});
   }
-  const double freedom = 3.0 * n * redundancyShare(n);
-  return atLeast({std::sqrt(std::max(0.0, t2 / freedom)), std::sqrt(std::max(0.0, r2 / freedom))});
+  return noise;
 }
 
 void judgeMotion(const Problem& problem, HandEyeFit& fit) {
@@ -203,6 +213,11 @@ void judgeMotion(const Problem& problem, HandEyeFit& fit) {
 }
 
 }  // namespace
+
+double leastNoiseShare(double residuals) {
+  const double c = 2.0 / (9.0 * std::max(residuals, 1.0));
+  return std::pow(std::max(1.0 - c + kOnePercent * std::sqrt(c), 0.05), 3);
+}
 
 PairError pairError(const HandEye& pose, const PosePair& pair, EyeSetup setup) {
   const Pose D = pair.cMt.inverse() * predictedTarget(pose, pair, setup);
@@ -244,9 +259,11 @@ HandEyeFit fitHandEye(const std::vector<PosePair>& pairs, EyeSetup setup, const 
   problem.setNoise(fit.noise);
   problem.robust = false;
   for (int round = 0; round < 20; ++round) {
+    const auto before = static_cast<double>(std::count(fit.used.begin(), fit.used.end(), true));
+    const double gate = kGate / leastNoiseShare(3.0 * before - 6.0);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      problem.used[i] = problem.distance(i, linearise(fit.pose, pairs[i], setup).e) < kGate;
+      problem.used[i] = problem.distance(i, linearise(fit.pose, pairs[i], setup).e) < gate;
       kept += problem.used[i] ? 1 : 0;
     }
     const bool same = problem.used == fit.used && round > 4;
@@ -255,7 +272,7 @@ HandEyeFit fitHandEye(const std::vector<PosePair>& pairs, EyeSetup setup, const 
       break;
     }
     fit.pose = minimise(problem, fit.pose, 50);
-    fit.noise = noiseFromMoments(fit.pose, pairs, fit.used, setup);
+    fit.noise = noiseFromMoments(fit.pose, pairs, fit.used, setup, fit.noise);
     problem.setNoise(fit.noise);
   }
   judgeMotion(problem, fit);

@@ -11,9 +11,9 @@
 ///
 /// 1. Levenberg-Marquardt with Cauchy weights; s_t, s_r from medians (a quarter of wrong pairs
 ///    does not move them far).
-/// 2. Pairs with e^T C^-1 e beyond the 99.9 % point of chi-square with six degrees are taken out
-///    (Hampel et al., "Robust Statistics", 1986); the rest is fitted without weights, s_t, s_r
-///    from moments; repeated until the same pairs stay.
+/// 2. Pairs with e^T C^-1 e beyond the 99.9 % point of chi-square with six degrees, widened by
+///    leastNoiseShare, are taken out (Hampel et al., "Robust Statistics", 1986); the rest is fitted
+///    without weights, s_t, s_r by maximum likelihood; repeated until the same pairs stay.
 /// The covariance is the inverse of the normal matrix at the minimum.
 
 #include <optional>
@@ -44,6 +44,10 @@ struct HandEyeFit {
   std::optional<Covariance12> covariance;
   Eigen::Matrix<double, 12, 1> weakest;  ///< direction of (a, b) that the pairs tell least of
 };
+
+/// Noise that was estimated from `residuals` residuals may truly be larger: the 1 % point of
+/// chi-square with so many degrees over their number (Wilson and Hilferty 1931), below 1.
+double leastNoiseShare(double residuals);
 
 /// Error of one pair.
 PairError pairError(const HandEye& pose, const PosePair& pair, EyeSetup setup);

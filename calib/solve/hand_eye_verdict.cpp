@@ -13,7 +13,6 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kWellTurned = 15.0 * kDegree;  // RMS of a flange's turns about one axis
 constexpr double kPositionPoint = 16.27;        // chi-square, 3 degrees, 99.9 %
-constexpr double kOnePercent = -2.326;          // of the normal law
 
 // Turns between all pairs of flange poses, expressed in the flange.
 Eigen::Matrix3d turnScatter(const std::vector<PosePair>& pairs) {
@@ -67,10 +66,7 @@ std::optional<Verdict> contradiction(const HandEyeResult& r, const VerdictLimits
 }  // namespace
 
 double boundFactor(double residuals) {
-  const double n = std::max(residuals, 1.0);
-  const double c = 2.0 / (9.0 * n);
-  const double share = std::pow(std::max(1.0 - c + kOnePercent * std::sqrt(c), 0.05), 3);
-  return std::sqrt(kPositionPoint / share);
+  return std::sqrt(kPositionPoint / leastNoiseShare(residuals));
 }
 
 std::string motionAdvice(const std::vector<PosePair>& pairs) {

@@ -6,12 +6,11 @@
 /// open, small rotations magnify noise, few pairs flatter themselves. So the verdict rests on the
 /// uncertainty of the result, taken at a level that a true error exceeds in one of a thousand
 /// cases:
-///   bound = sqrt(16.3) * sigma * sqrt(n / chi2_n(1 %)),
+///   bound = sqrt(16.3 / leastNoiseShare(n)) * sigma,
 /// sigma the largest standard deviation over directions (the larger of model and jackknife; Efron,
-/// "The Jackknife", 1982), 16.3 the 99.9 % point of chi-square with three degrees, and the last
-/// factor for noise that was itself estimated from n residuals (Wilson and Hilferty 1931 for its
-/// point). Beyond it: too many contradicting pairs, a convention that fits better, held-out errors
-/// far above the residuals.
+/// "The Jackknife", 1982), 16.3 the 99.9 % point of chi-square with three degrees, n the number of
+/// residuals that the noise was estimated from. Beyond it: too many contradicting pairs, a
+/// convention that fits better, held-out errors far above the residuals.
 
 #include "calib/solve/hand_eye.h"
 

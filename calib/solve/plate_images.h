@@ -27,8 +27,9 @@ struct FoundPlates {
 /// Flange poses of all images. Throws InputError for numbers that do not match and bad files.
 std::vector<Pose> readFlangePoses(const PlateImages& images);
 
-/// Looks for the plate in all images. oMk of the plate is not looked at. Throws InputError for
-/// unreadable files, images whose size is not the rig's, and right images for a rig of one camera.
+/// Looks for the plate in all images, at their full size, and undistorts its corners exactly. oMk
+/// of the plate is not looked at. Throws InputError for unreadable files, images whose size is not
+/// the rig's, and right images for a rig of one camera.
 FoundPlates findPlates(const PlateImages& images, const StereoRig& rig, TagPlate plate,
                        const StepHook& hook);
 

@@ -69,8 +69,8 @@ PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetu
   calibration.pairs = pairsOf(kept, calibration.corner_sigma_px);
   calibration.result = calibrateRobotCamera(calibration.pairs, setup, hook);
   HandEyeResult& result = calibration.result;
-  if (result.verdict.grade == Grade::kPoor) {
-    return calibration;
+  if (!result.sigmas || !result.better_convention.words.empty()) {
+    return calibration;  // nothing that could be refined
   }
   const BundleResult bundle = refineOnPlates(kept, result.used, setup, result.pose,
                                              calibration.corner_sigma_px, result.noise);

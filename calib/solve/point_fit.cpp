@@ -105,8 +105,10 @@ void settle(const std::vector<PointPair>& points, PointFit& fit) {
     const std::vector<double> d = distances(fit.fMc1, points);
     std::vector<bool> used(points.size());
     sigma = std::max(sigma, kLeastSigma);
+    const auto before = static_cast<double>(std::count(fit.used.begin(), fit.used.end(), true));
+    const double gate = kGate / leastNoiseShare(3.0 * before - 6.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      used[i] = d[i] * d[i] < kGate * sigma * sigma;
+      used[i] = d[i] * d[i] < gate * sigma * sigma;
     }
     const auto n = static_cast<double>(std::count(used.begin(), used.end(), true));
     const auto next = n < 4.0 ? std::nullopt : fitOver(points, used);
@@ -169,8 +171,15 @@ void uncertaintyOf(const std::vector<PointPair>& points, PointFit& fit) {
   fit.covariance = inverse * spread * inverse;
   fit.camera_sigma_m = largestSigma(fit.covariance.topLeftCorner<3, 3>());
   fit.camera_sigma_rad = largestSigma(fit.covariance.bottomRightCorner<3, 3>());
-  const auto J = jacobian(middle / n);
-  fit.workspace_sigma_m = largestSigma(J * fit.covariance * J.transpose());
+  const auto sigmaAt = [&](const Vector3d& point_c) {
+    const auto J = jacobian(point_c);
+    return largestSigma(J * fit.covariance * J.transpose());
+  };
+  fit.workspace_sigma_m = sigmaAt(middle / n);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    fit.farthest_sigma_m =
+        std::max(fit.farthest_sigma_m, fit.used[i] ? sigmaAt(points[i].point_c) : 0.0);
+  }
 }
 
 // Scale of the camera's points about their middle, and its standard deviation.
@@ -187,15 +196,18 @@ double scaleOf(const std::vector<PointPair>& points, PointFit& fit) {
   }
   double across = 0.0;
   double own = 0.0;
+  double others = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (fit.used[i]) {
       const Vector3d turned = fit.fMc1.linear() * (points[i].point_c - c / n);
       across += turned.dot(points[i].point_f - f / n);
       own += turned.squaredNorm();
+      others += (points[i].point_f - f / n).squaredNorm();
     }
   }
   fit.scale = across / own;
-  return fit.residual_m / std::sqrt(3.0 * own);
+  const double left = std::max(0.0, others - fit.scale * across);  // sum of squares after scaling
+  return std::sqrt(left / (3.0 * n - 7.0) / own);
 }
 
 // A left-handed frame fits its mirror image.
@@ -230,11 +242,9 @@ Verdict judgePoints(const std::vector<PointPair>& points, const PointFit& fit, d
   }
   const double kept = all - static_cast<double>(fit.rejected.size());
   const double factor = boundFactor(3.0 * kept - 6.0);
-  if (!(factor * fit.camera_sigma_m <= limits.usable_m) ||
-      !(factor * fit.camera_sigma_rad <= limits.usable_rad)) {
-    return {Grade::kPoor, "the camera's pose may be wrong by " +
-                              millimetres(factor * fit.camera_sigma_m) + " and " +
-                              degrees(factor * fit.camera_sigma_rad) +
+  if (!(factor * fit.farthest_sigma_m <= limits.usable_m)) {
+    return {Grade::kPoor, "points among those given may be wrong by " +
+                              millimetres(factor * fit.farthest_sigma_m) +
                               "; take a larger cube, or more points"};
   }
   const bool good = factor * fit.workspace_sigma_m <= limits.good_m;

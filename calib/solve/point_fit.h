@@ -39,6 +39,7 @@ struct PointFit {
   double camera_sigma_m = 0.0;     ///< of the camera's position, largest over directions
   double camera_sigma_rad = 0.0;   ///< of its orientation
   double workspace_sigma_m = 0.0;  ///< of a point in the middle of the points
+  double farthest_sigma_m = 0.0;   ///< of the point used that is known worst
   double scale = 1.0;              ///< that the camera's points would need to fit best
   std::vector<double> errors_m;    ///< distance of every point given
   std::vector<bool> used;          ///< one per point given
