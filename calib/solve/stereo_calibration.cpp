@@ -5,20 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/solve/circle_grid.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-constexpr std::size_t kLargestLeaveOneOut = 20;
-constexpr std::size_t kFolds = 10;
-
-// Limits of judge(); doc/calibration.md gives the reasons.
-constexpr double kGood_px = 0.3;
-constexpr double kUsable_px = 0.6;
-constexpr double kGoodRelativeUncertainty = 2e-3;
-constexpr double kUsableRelativeUncertainty = 1e-2;
-constexpr double kOverfit = 1.5;
+constexpr int kCircleRounds = 3;  // the bias of a circle's centre changes by 1e-3 of itself a round
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -26,38 +19,74 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-double rootMeanSquare(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) {
-    sum += v * v;
+void requireViews(const StereoViews& found, const Board& board) {
+  if (found.usable.size() < static_cast<std::size_t>(kFewestViews)) {
+    std::string sentence =
+        fmt::format("only {} of {} pairs show the board in both images, expected at least {}",
+                    found.usable.size(), found.usable.size() + found.rejected.size(), kFewestViews);
+    if (!found.rejected.empty()) {
+      sentence += " (first: " + found.rejected.front().reason + ")";
+    }
+    throw InputError(sentence);
   }
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  for (const StereoView& view : found.usable) {
+    for (const BoardSighting* sighting : {&view.left, &view.right}) {
+      if (sighting->ids.size() != sighting->pixels.size() || sighting->ids.empty() ||
+          sighting->ids.front() < 0 ||
+          static_cast<std::size_t>(sighting->ids.back()) >= board.size()) {
+        throw InputError(view.left_name + ": the points seen are not those of " + toString(board));
+      }
+    }
+  }
 }
 
-void requireViews(const StereoViews& found) {
-  if (found.usable.size() >= static_cast<std::size_t>(kFewestViews)) {
-    return;
-  }
-  std::string sentence =
-      fmt::format("only {} of {} pairs show the board in both images, expected at least {}",
-                  found.usable.size(), found.usable.size() + found.rejected.size(), kFewestViews);
-  if (!found.rejected.empty()) {
-    sentence += " (first: " + found.rejected.front().reason + ")";
-  }
-  throw InputError(sentence);
+bool hasCircles(const Board& board) {
+  return board.kind == BoardKind::kCircles || board.kind == BoardKind::kAsymmetricCircles;
 }
 
-StereoSolution solve(const std::vector<StereoView>& views, const Board& board, LensTerms terms) {
-  return refineSolution(startSolution(views, board, terms), views, board, terms);
+// Takes the bias that `solution` predicts off the measured centroids (circle_grid.h).
+std::vector<StereoView> withCircleCentres(std::vector<StereoView> views, const Board& board,
+                                          const StereoSolution& solution) {
+  const std::vector<Eigen::Vector3d> points = board.points();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Pose c2Mt = solution.rig.c2Mc1 * solution.c1Mt[i];
+    const auto correct = [&](const CameraModel& camera, const Pose& cMt, BoardSighting& sighting) {
+      for (std::size_t j = 0; j < sighting.ids.size(); ++j) {
+        sighting.pixels[j] -= circleBias(
+            camera, cMt, points[static_cast<std::size_t>(sighting.ids[j])], board.marker_m);
+      }
+    };
+    correct(solution.rig.left, solution.c1Mt[i], views[i].left);
+    correct(*solution.rig.right, c2Mt, views[i].right);
+  }
+  return views;
+}
+
+// The whole fit. Of circles, `views` are given as measured and come back as images of centres.
+StereoSolution solve(std::vector<StereoView>& views, const Board& board, const FitOptions& fit) {
+  FitOptions printed = fit;
+  printed.board_shape = false;
+  StereoSolution solution =
+      refineSolution(startSolution(views, board, fit.terms), views, board, printed);
+  if (hasCircles(board)) {
+    const std::vector<StereoView> measured = views;
+    for (int round = 0; round < kCircleRounds; ++round) {
+      views = withCircleCentres(measured, board, solution);
+      solution = refineSolution(solution, views, board, printed);
+    }
+  }
+  return fit.board_shape ? refineSolution(solution, views, board, fit) : solution;
 }
 
 // Fits, and takes out the worst contradicting view until none is left.
 StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<RejectedView>& rejected,
-                               const Board& board, LensTerms terms, const StepHook& hook) {
+                               const Board& board, const FitOptions& fit, const StepHook& hook) {
   const std::size_t most = std::max<std::size_t>(1, views.size() / 4);
+  std::vector<StereoView> measured = views;
   for (std::size_t taken = 0;; ++taken) {
-    hook(0.1, fmt::format("fitting {} views", views.size()));
-    StereoSolution solution = solve(views, board, terms);
+    hook(0.02, fmt::format("fitting {} views", measured.size()));
+    views = measured;
+    StereoSolution solution = solve(views, board, fit);
     const std::vector<ViewError> errors = viewErrors(solution, views, board);
     const double limit = outlierLimit(errors);
     const auto worst = std::max_element(
@@ -66,8 +95,8 @@ StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<Rejec
     if (worst->both_px <= limit) {
       return solution;
     }
-    const auto view = views.begin() + (worst - errors.begin());
-    if (taken == most || views.size() <= static_cast<std::size_t>(kFewestViews)) {
+    const auto view = measured.begin() + (worst - errors.begin());
+    if (taken == most || measured.size() <= static_cast<std::size_t>(kFewestViews)) {
       throw Error(
           fmt::format("too many views contradict each other ({} taken out, and {} still has "
                       "{:.2f} px where the others allow {:.2f} px): check that left and right "
@@ -77,34 +106,39 @@ StereoSolution solveConsistent(std::vector<StereoView>& views, std::vector<Rejec
     rejected.push_back({view->left_name, view->right_name,
                         fmt::format("contradicts the other views: {:.2f} px RMS, limit {:.2f} px",
                                     worst->both_px, limit)});
-    views.erase(view);
+    measured.erase(view);
   }
 }
 
-// Row differences of every view with a fit that left it out; `solution` only starts each fit.
-std::vector<std::vector<double>> heldOutRows(const StereoSolution& solution,
-                                             const std::vector<StereoView>& views,
-                                             const Board& board, LensTerms terms, std::size_t folds,
-                                             const StepHook& hook) {
-  std::vector<std::vector<double>> rows(views.size());
-  for (std::size_t fold = 0; fold < folds; ++fold) {
-    hook(0.2 + 0.8 * static_cast<double>(fold) / static_cast<double>(folds),
-         fmt::format("cross validation, fold {} of {}", fold + 1, folds));
-    StereoSolution start = solution;
-    start.c1Mt.clear();
-    std::vector<StereoView> training;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (i % folds != fold) {
-        training.push_back(views[i]);
-        start.c1Mt.push_back(solution.c1Mt[i]);
-      }
-    }
-    const StereoSolution fit = refineSolution(start, training, board, terms);
-    for (std::size_t i = fold; i < views.size(); i += folds) {
-      rows[i] = rowDifferences(fit.rig, views[i]);
-    }
+// Noise per axis [px] from the squares that are left and the degrees of freedom that left them.
+double cornerSigma(const std::vector<ViewError>& errors, int degrees_of_freedom) {
+  double squares = 0.0;
+  for (const ViewError& e : errors) {
+    squares += e.both_px * e.both_px * e.points;
   }
-  return rows;
+  return std::sqrt(squares / std::max(1, degrees_of_freedom));
+}
+
+void fillHeldOut(StereoCalibration& result, const std::vector<StereoView>& views,
+                 const std::vector<ViewError>& errors,
+                 const std::vector<std::vector<double>>& rows) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    result.used.push_back(
+        {views[i].left_name, views[i].right_name, errors[i], rootMeanSquare(rows[i])});
+    all.insert(all.end(), rows[i].begin(), rows[i].end());
+  }
+  if (all.empty()) {
+    throw InputError(
+        "no view shows the same point of the board in both images: bring the board where both "
+        "cameras see it");
+  }
+  result.heldout_vertical_disparity_px = rootMeanSquare(all);
+  if (!std::isfinite(result.heldout_vertical_disparity_px)) {
+    throw Error(
+        "the lens model folds back inside the image when a view is left out: use fewer distortion "
+        "coefficients, or add views with the board near the image corners");
+  }
 }
 
 void fillEvidence(StereoCalibration& result, const Board& board) {
@@ -114,35 +148,14 @@ void fillEvidence(StereoCalibration& result, const Board& board) {
   result.rig.views = static_cast<int>(result.used.size());
 }
 
-// Noise per axis [px] from the squares that are left and the degrees of freedom that left them.
-double cornerSigma(const std::vector<ViewError>& errors, int degrees_of_freedom) {
-  double squares = 0.0;
-  for (const ViewError& e : errors) {
-    squares += e.both_px * e.both_px * e.points;
-  }
-  return std::sqrt(squares / degrees_of_freedom);
-}
-
-double relativeUncertainty(const StereoCalibration& c) {
-  const CameraModel& left = c.rig.left;
-  const CameraModel& right = c.rig.right.value();
-  const double focal = std::min({left.K(0, 0), left.K(1, 1), right.K(0, 0), right.K(1, 1)});
-  return std::max(c.uncertainty->focal_px / focal, c.uncertainty->baseline_m / baseline(c.rig));
+// A part of the whole job's progress.
+StepHook partOf(const StepHook& hook, double from, double to) {
+  return [&hook, from, to](double fraction, const std::string& note) {
+    hook(from + (to - from) * fraction, note);
+  };
 }
 
 }  // namespace
-
-std::string toString(Grade grade) {
-  switch (grade) {
-    case Grade::kGood:
-      return "good";
-    case Grade::kUsable:
-      return "usable";
-    case Grade::kPoor:
-      break;
-  }
-  return "poor";
-}
 
 double outlierLimit(const std::vector<ViewError>& errors) {
   std::vector<double> values;
@@ -159,79 +172,41 @@ double outlierLimit(const std::vector<ViewError>& errors) {
 
 StereoCalibration calibrateStereo(const StereoViews& found, const Board& board,
                                   const StereoOptions& options, const StepHook& hook) {
-  requireViews(found);
-  const LensTerms terms = options.terms.value_or(LensTerms::kFive);
+  requireViews(found, board);
+  if (options.board_shape && board.ambiguous()) {
+    throw InputError("--board-shape: " + toString(board) +
+                     " looks the same turned by half, so its points cannot be told apart; expected "
+                     "a chessboard with an odd and an even count, ChArUco, AprilTags, or an "
+                     "asymmetric grid with an odd number of rows");
+  }
   StereoCalibration result;
-  result.terms = terms;
   result.rejected = found.rejected;
   std::vector<StereoView> views = found.usable;
-  const StereoSolution solution = solveConsistent(views, result.rejected, board, terms, hook);
+  FitOptions fit{options.terms.value_or(LensTerms::kFive), options.board_shape, options.threads};
+  StereoSolution solution = solveConsistent(views, result.rejected, board, fit, hook);
+  if (!options.terms) {
+    result.lenses = compareLenses(solution, views, board, fit, partOf(hook, 0.05, 0.7));
+    for (const LensCandidate& candidate : result.lenses) {
+      fit.terms = candidate.chosen ? candidate.terms : fit.terms;
+    }
+    solution = refineSolution(withTerms(solution, fit.terms), views, board, fit);
+  }
   const std::vector<ViewError> errors = viewErrors(solution, views, board);
+  result.terms = fit.terms;
   result.rig = solution.rig;
+  result.board_points = solution.board_points;
   result.rms_px = rms(errors);
-  result.corner_sigma_px = cornerSigma(errors, redundancy(views, terms));
-  result.uncertainty = uncertainty(solution, views, board, terms, result.corner_sigma_px);
-  result.folds = static_cast<int>(views.size() <= kLargestLeaveOneOut ? views.size() : kFolds);
-  const auto rows =
-      heldOutRows(solution, views, board, terms, static_cast<std::size_t>(result.folds), hook);
-  std::vector<double> all;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    result.used.push_back(
-        {views[i].left_name, views[i].right_name, errors[i], rootMeanSquare(rows[i])});
-    all.insert(all.end(), rows[i].begin(), rows[i].end());
+  result.corner_sigma_px = cornerSigma(errors, redundancy(views, fit));
+  if (const auto covariance = rigCovariance(solution, views, board, fit)) {
+    result.uncertainty = uncertaintyOf(solution.rig, *covariance, result.corner_sigma_px);
   }
-  result.heldout_vertical_disparity_px = rootMeanSquare(all);
-  if (!std::isfinite(result.heldout_vertical_disparity_px)) {
-    throw Error(
-        "the lens model folds back inside the image when a view is left out: use fewer distortion "
-        "coefficients, or add views with the board near the image corners");
-  }
+  result.folds = static_cast<int>(foldsFor(views.size()));
+  fillHeldOut(result, views, errors,
+              heldOutRows(solution, views, board, fit, partOf(hook, 0.7, 1.0)));
   fillEvidence(result, board);
   result.verdict = judge(result);
   hook(1.0, "done");
   return result;
-}
-
-Verdict judge(const StereoCalibration& c) {
-  if (!c.uncertainty) {
-    return {Grade::kPoor,
-            "the views leave a parameter undetermined: tilt the board in different directions"};
-  }
-  const double rows = c.heldout_vertical_disparity_px;
-  const double worst = std::max(c.rms_px, rows);
-  const double relative = relativeUncertainty(c);
-  const std::string figures =
-      fmt::format("reprojection {:.3f} px and held-out rows {:.3f} px", c.rms_px, rows);
-  if (!(worst <= kUsable_px)) {
-    return {Grade::kPoor,
-            figures + fmt::format(", where at most {:.1f} px can be used: look for blur, a "
-                                  "bent board, or images that are not pairs",
-                                  kUsable_px)};
-  }
-  if (relative > kUsableRelativeUncertainty) {
-    return {Grade::kPoor,
-            fmt::format("focal length or baseline is known to {:.2f} % only: tilt the board "
-                        "more and bring it closer",
-                        100.0 * relative)};
-  }
-  if (rows > kOverfit * std::sqrt(2.0) * c.corner_sigma_px) {
-    return {Grade::kUsable, figures +
-                                ": unseen views fit worse than the ones used, so the views "
-                                "are too few or too much alike"};
-  }
-  if (worst > kGood_px) {
-    return {Grade::kUsable,
-            figures + fmt::format(", where {:.1f} px is good: sharper or more evenly lit "
-                                  "pictures and a flatter board help",
-                                  kGood_px)};
-  }
-  if (relative > kGoodRelativeUncertainty) {
-    return {Grade::kUsable,
-            figures + fmt::format(", but focal length or baseline is known to {:.2f} % "
-                                  "only: tilt the board more",
-                                  100.0 * relative)};
-  }
-  return {Grade::kGood, figures + ", both as expected of sharp pictures and a flat board"};
 }
 
 }  // namespace ringhook

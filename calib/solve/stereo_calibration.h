@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "calib/solve/stereo_folds.h"
 #include "calib/solve/stereo_images.h"
-#include "calib/solve/stereo_problem.h"
+#include "calib/solve/stereo_uncertainty.h"
 
 namespace ringhook {
 
@@ -46,6 +47,8 @@ struct Verdict {
 struct StereoCalibration {
   LensTerms terms = LensTerms::kFive;  ///< given or chosen
   StereoRig rig;                       ///< with rms_px, held-out figure, board and views filled
+  std::vector<LensCandidate> lenses;   ///< tried; empty if the terms were given
+  std::vector<Eigen::Vector3d> board_points;  ///< the board's own shape in t [m]; empty: as printed
   std::vector<UsedView> used;
   std::vector<RejectedView> rejected;
   double rms_px = 0.0;                         ///< see rms()
@@ -66,8 +69,8 @@ std::string toString(Grade grade);
 double outlierLimit(const std::vector<ViewError>& errors);
 
 /// The whole job. `found.rejected` is carried into the result. Views above outlierLimit are taken
-/// out one by one, worst first, each with its reason. Folds: leave one view out up to 20 views, ten
-/// folds beyond. Throws InputError below kFewestViews views, Error if more than a quarter of them
+/// out one by one, worst first, each with its reason. Held-out figures: stereo_folds.h.
+/// Throws InputError below kFewestViews views, Error if more than a quarter of them
 /// contradict the others or nothing converges, and whatever `hook` throws.
 StereoCalibration calibrateStereo(const StereoViews& found, const Board& board,
                                   const StereoOptions& options, const StepHook& hook);

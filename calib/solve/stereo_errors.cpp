@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "calib/solve/stereo_problem.h"
 #include "core/shortest_turn.h"
@@ -11,7 +12,8 @@ namespace ringhook {
 
 std::vector<ViewError> viewErrors(const StereoSolution& solution,
                                   const std::vector<StereoView>& views, const Board& board) {
-  const std::vector<Eigen::Vector3d> points = board.points();
+  const std::vector<Eigen::Vector3d> points =
+      solution.board_points.empty() ? board.points() : solution.board_points;
   const auto residual2 = [](const CameraModel& camera, const Eigen::Vector3d& point_c,
                             const Eigen::Vector2d& seen) {
     return (projectNormalised(camera, point_c.hnormalized()) - seen).squaredNorm();
@@ -49,13 +51,18 @@ double rms(const std::vector<ViewError>& errors) {
   return std::sqrt(sum / points);
 }
 
-int redundancy(const std::vector<StereoView>& views, LensTerms terms) {
+int redundancy(const std::vector<StereoView>& views, const FitOptions& options) {
   std::size_t points = 0;
+  std::set<int> seen;
   for (const StereoView& view : views) {
     points += view.left.ids.size() + view.right.ids.size();
+    seen.insert(view.left.ids.begin(), view.left.ids.end());
+    seen.insert(view.right.ids.begin(), view.right.ids.end());
   }
   const int n = static_cast<int>(views.size());
-  return 2 * static_cast<int>(points) - 2 * (4 + static_cast<int>(terms)) - 6 * (n + 1);
+  const int shape = options.board_shape ? 3 * static_cast<int>(seen.size()) - 7 : 0;
+  return 2 * static_cast<int>(points) - 2 * (4 + static_cast<int>(options.terms)) - 6 * (n + 1) -
+         shape;
 }
 
 std::vector<double> rowDifferences(const StereoRig& rig, const StereoView& view) {

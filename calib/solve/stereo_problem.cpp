@@ -6,8 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cmath>
-#include <utility>
+#include <mutex>
 
 #include "core/error.h"
 
@@ -42,19 +41,24 @@ void project(const T* lens, const T* point_c, T* pixel) {
   pixel[1] = lens[1] * yd + lens[3];
 }
 
+// Each residual comes with the board's point given, and with the point as one more unknown.
 struct LeftResidual {
   Eigen::Vector3d point_t;
   Eigen::Vector2d seen;
 
   template <class T>
-  bool operator()(const T* left, const T* c1Mt, T* residual) const {
-    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+  bool operator()(const T* left, const T* c1Mt, const T* point, T* residual) const {
     std::array<T, 3> point_c1;
-    transform(c1Mt, point.data(), point_c1.data());
+    transform(c1Mt, point, point_c1.data());
     project(left, point_c1.data(), residual);
     residual[0] -= seen.x();
     residual[1] -= seen.y();
     return true;
+  }
+  template <class T>
+  bool operator()(const T* left, const T* c1Mt, T* residual) const {
+    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+    return (*this)(left, c1Mt, point.data(), residual);
   }
 };
 
@@ -63,15 +67,35 @@ struct RightResidual {
   Eigen::Vector2d seen;
 
   template <class T>
-  bool operator()(const T* right, const T* c2Mc1, const T* c1Mt, T* residual) const {
-    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+  bool operator()(const T* right, const T* c2Mc1, const T* c1Mt, const T* point,
+                  T* residual) const {
     std::array<T, 3> point_c1;
     std::array<T, 3> point_c2;
-    transform(c1Mt, point.data(), point_c1.data());
+    transform(c1Mt, point, point_c1.data());
     transform(c2Mc1, point_c1.data(), point_c2.data());
     project(right, point_c2.data(), residual);
     residual[0] -= seen.x();
     residual[1] -= seen.y();
+    return true;
+  }
+  template <class T>
+  bool operator()(const T* right, const T* c2Mc1, const T* c1Mt, T* residual) const {
+    const std::array<T, 3> point{T(point_t.x()), T(point_t.y()), T(point_t.z())};
+    return (*this)(right, c2Mc1, c1Mt, point.data(), residual);
+  }
+};
+
+// A point of the print lies where it should within `sigma` [m]; that weighs as much as a residual
+// of a tenth of a pixel.
+struct PrintPrior {
+  Eigen::Vector3d printed_t;
+  Eigen::Vector3d sigma;
+
+  template <class T>
+  bool operator()(const T* point, T* residual) const {
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = (point[i] - printed_t[i]) * (0.1 / sigma[i]);
+    }
     return true;
   }
 };
@@ -90,16 +114,10 @@ struct DenominatorPrior {
 };
 
 // Ceres warns through glog of steps that it takes back by itself; its summary is what counts.
-class QuietLog {
- public:
-  QuietLog() : level_(FLAGS_minloglevel) { FLAGS_minloglevel = google::GLOG_FATAL; }
-  ~QuietLog() { FLAGS_minloglevel = level_; }
-  QuietLog(const QuietLog&) = delete;
-  QuietLog& operator=(const QuietLog&) = delete;
-
- private:
-  int level_;
-};
+void silenceLog() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
 
 LensBlock blockOf(const CameraModel& model) {
   LensBlock block{model.K(0, 0), model.K(1, 1), model.K(0, 2), model.K(1, 2)};
@@ -124,54 +142,85 @@ void readBlock(const LensBlock& block, LensTerms terms, CameraModel& model) {
   model.distortion = Eigen::Map<const Eigen::VectorXd>(block.data() + 4, static_cast<int>(terms));
 }
 
-// The parameters, the residuals over them, and the order that eliminates the views first.
+// The parameters and the residuals over them.
 struct Bundle {
   LensBlock left;
   LensBlock right;
   PoseBlock c2Mc1;
   std::vector<PoseBlock> c1Mt;
+  std::vector<Eigen::Vector3d> points;
   ceres::Problem problem;
 
   Bundle(const StereoSolution& start, const std::vector<StereoView>& views, const Board& board,
-         LensTerms terms)
+         const FitOptions& options)
       : left(blockOf(start.rig.left)),
         right(blockOf(start.rig.right.value())),
-        c2Mc1(blockOf(start.rig.c2Mc1)) {
+        c2Mc1(blockOf(start.rig.c2Mc1)),
+        points(start.board_points.empty() ? board.points() : start.board_points) {
     for (const Pose& pose : start.c1Mt) {
       c1Mt.push_back(blockOf(pose));
     }
-    const std::vector<Eigen::Vector3d> points = board.points();
     for (std::size_t i = 0; i < views.size(); ++i) {
-      addView(views[i], points, c1Mt[i].data());
+      addLeft(views[i].left, options.board_shape, c1Mt[i].data());
+      addRight(views[i].right, options.board_shape, c1Mt[i].data());
     }
-    if (terms == LensTerms::kEight) {
-      addPrior(left.data());
-      addPrior(right.data());
+    if (options.board_shape) {
+      addPrintPrior(board);
     }
-    holdUnusedTerms(terms);
+    if (options.terms == LensTerms::kEight) {
+      addLensPrior(left.data());
+      addLensPrior(right.data());
+    }
+    holdUnusedTerms(options.terms);
   }
 
-  void addPrior(double* lens) {
+  void addLensPrior(double* lens) {
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<DenominatorPrior, 3, kLensSize>(new DenominatorPrior),
         nullptr, lens);
   }
 
-  void addView(const StereoView& view, const std::vector<Eigen::Vector3d>& points,
-               double* view_pose) {
-    for (std::size_t j = 0; j < view.left.ids.size(); ++j) {
-      const Eigen::Vector3d& point_t = points[static_cast<std::size_t>(view.left.ids[j])];
+  void addPrintPrior(const Board& board) {
+    const std::vector<Eigen::Vector3d> printed = board.points();
+    const Eigen::Vector3d sigma = board.pitch_m * Eigen::Vector3d(0.005, 0.005, 0.02);
+    for (std::size_t j = 0; j < printed.size(); ++j) {
       problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize>(
-              new LeftResidual{point_t, view.left.pixels[j]}),
-          nullptr, left.data(), view_pose);
+          new ceres::AutoDiffCostFunction<PrintPrior, 3, 3>(new PrintPrior{printed[j], sigma}),
+          nullptr, points[j].data());
     }
-    for (std::size_t j = 0; j < view.right.ids.size(); ++j) {
-      const Eigen::Vector3d& point_t = points[static_cast<std::size_t>(view.right.ids[j])];
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize>(
-              new RightResidual{point_t, view.right.pixels[j]}),
-          nullptr, right.data(), c2Mc1.data(), view_pose);
+  }
+
+  void addLeft(const BoardSighting& sighting, bool shape, double* view_pose) {
+    for (std::size_t j = 0; j < sighting.ids.size(); ++j) {
+      Eigen::Vector3d& point = points[static_cast<std::size_t>(sighting.ids[j])];
+      auto* residual = new LeftResidual{point, sighting.pixels[j]};
+      if (shape) {
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize, 3>(residual),
+            nullptr, left.data(), view_pose, point.data());
+      } else {
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<LeftResidual, 2, kLensSize, kPoseSize>(residual),
+            nullptr, left.data(), view_pose);
+      }
+    }
+  }
+
+  void addRight(const BoardSighting& sighting, bool shape, double* view_pose) {
+    for (std::size_t j = 0; j < sighting.ids.size(); ++j) {
+      Eigen::Vector3d& point = points[static_cast<std::size_t>(sighting.ids[j])];
+      auto* residual = new RightResidual{point, sighting.pixels[j]};
+      if (shape) {
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize, 3>(
+                residual),
+            nullptr, right.data(), c2Mc1.data(), view_pose, point.data());
+      } else {
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<RightResidual, 2, kLensSize, kPoseSize, kPoseSize>(
+                residual),
+            nullptr, right.data(), c2Mc1.data(), view_pose);
+      }
     }
   }
 
@@ -190,8 +239,9 @@ struct Bundle {
 }  // namespace
 
 StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
-                              const Board& board, LensTerms terms) {
-  Bundle bundle(start, views, board, terms);
+                              const Board& board, const FitOptions& fit) {
+  silenceLog();
+  Bundle bundle(start, views, board, fit);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = 500;
@@ -199,7 +249,7 @@ StereoSolution refineSolution(const StereoSolution& start, const std::vector<Ste
   options.parameter_tolerance = 1e-12;
   options.gradient_tolerance = 1e-12;
   options.logging_type = ceres::SILENT;
-  const QuietLog quiet;
+  options.num_threads = std::max(1, fit.threads);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &bundle.problem, &summary);
   if (summary.termination_type != ceres::CONVERGENCE) {
@@ -207,40 +257,37 @@ StereoSolution refineSolution(const StereoSolution& start, const std::vector<Ste
                 "): take more pictures with the board tilted in different directions");
   }
   StereoSolution solution = start;
-  readBlock(bundle.left, terms, solution.rig.left);
-  readBlock(bundle.right, terms, *solution.rig.right);
+  readBlock(bundle.left, fit.terms, solution.rig.left);
+  readBlock(bundle.right, fit.terms, *solution.rig.right);
   solution.rig.c2Mc1 = poseOf(bundle.c2Mc1);
   for (std::size_t i = 0; i < views.size(); ++i) {
     solution.c1Mt[i] = poseOf(bundle.c1Mt[i]);
   }
+  if (fit.board_shape) {
+    solution.board_points = bundle.points;
+  }
   return solution;
 }
 
-std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
-                                       const std::vector<StereoView>& views, const Board& board,
-                                       LensTerms terms, double sigma_px) {
-  Bundle bundle(solution, views, board, terms);
-  const QuietLog quiet;
+std::optional<RigCovariance> rigCovariance(const StereoSolution& solution,
+                                           const std::vector<StereoView>& views, const Board& board,
+                                           const FitOptions& fit) {
+  silenceLog();
+  Bundle bundle(solution, views, board, fit);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
+  options.num_threads = std::max(1, fit.threads);
   ceres::Covariance covariance(options);
-  const double* l = bundle.left.data();
-  const double* r = bundle.right.data();
-  const double* p = bundle.c2Mc1.data();
-  if (!covariance.Compute({{l, l}, {r, r}, {p, p}}, &bundle.problem)) {
+  const std::vector<const double*> blocks{bundle.left.data(), bundle.right.data(),
+                                          bundle.c2Mc1.data()};
+  if (!covariance.Compute(blocks, &bundle.problem)) {
     return std::nullopt;
   }
-  Eigen::Matrix<double, kLensSize, kLensSize, Eigen::RowMajor> left;
-  Eigen::Matrix<double, kLensSize, kLensSize, Eigen::RowMajor> right;
-  Eigen::Matrix<double, kPoseSize, kPoseSize, Eigen::RowMajor> pose;
-  covariance.GetCovarianceBlock(l, l, left.data());
-  covariance.GetCovarianceBlock(r, r, right.data());
-  covariance.GetCovarianceBlock(p, p, pose.data());
-  const Eigen::Vector3d along = solution.rig.c2Mc1.translation().normalized();
-  const double baseline_variance = along.dot(pose.bottomRightCorner<3, 3>() * along);
-  const double focal_variance =
-      std::max(left.diagonal().head<2>().maxCoeff(), right.diagonal().head<2>().maxCoeff());
-  return Uncertainty{sigma_px * std::sqrt(focal_variance), sigma_px * std::sqrt(baseline_variance)};
+  Eigen::Matrix<double, 30, 30, Eigen::RowMajor> matrix;
+  if (!covariance.GetCovarianceMatrix(blocks, matrix.data())) {
+    return std::nullopt;
+  }
+  return RigCovariance(matrix);
 }
 
 }  // namespace ringhook

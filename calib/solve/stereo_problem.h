@@ -8,6 +8,12 @@
 ///   minimise  sum over views i, corners j of
 ///     |p1_ij - project(left, c1Mt_i X_j)|^2 + |p2_ij - project(right, c2Mc1 c1Mt_i X_j)|^2
 /// Focal lengths, aspect and principal points of the two cameras are all free and not shared.
+///
+/// Optionally the board's points X_j are unknown, too (a print is never quite flat nor to scale;
+/// Strobl and Hirzinger, "More accurate pinhole camera calibration with imperfect planar target",
+/// ICCV Workshops 2011). A rigid motion and the size of all X_j together would be free then; a weak
+/// prior, X_j as printed with a standard deviation of 0.5 % of the pitch in the print and 2 % out
+/// of it, fixes them where the mean of the points is as printed, and weighs nothing else.
 
 #include <Eigen/Core>
 #include <functional>
@@ -48,9 +54,17 @@ enum class LensTerms {
   kEight = 8,  ///< k1 k2 p1 p2 k3 k4 k5 k6, OpenCV's rational model
 };
 
+/// What is unknown, and how many threads look for it.
+struct FitOptions {
+  LensTerms terms = LensTerms::kFive;
+  bool board_shape = false;  ///< the board's points as well
+  int threads = 1;
+};
+
 struct StereoSolution {
-  StereoRig rig;           ///< cameras and c2Mc1; evidence fields stay empty
-  std::vector<Pose> c1Mt;  ///< board in the left camera, one per view
+  StereoRig rig;                              ///< cameras and c2Mc1; evidence fields stay empty
+  std::vector<Pose> c1Mt;                     ///< board in the left camera, one per view
+  std::vector<Eigen::Vector3d> board_points;  ///< in t [m]; empty: as printed
 };
 
 /// Root mean square length of the residual vectors of one view [px].
@@ -61,11 +75,10 @@ struct ViewError {
   int points = 0;        ///< seen in both images together
 };
 
-/// Standard deviations that the corner noise leaves in the result.
-struct Uncertainty {
-  double focal_px = 0.0;    ///< largest of the four focal lengths' [px]
-  double baseline_m = 0.0;  ///< of the distance between the optical centres [m]
-};
+/// Covariance for noise of one pixel per axis of the rig's parameters: of the left lens, then the
+/// right one fx fy cx cy [px] k1 k2 p1 p2 k3 k4 k5 k6, then of c2Mc1 the rotation vector [rad] and
+/// the translation [m]. Parameters that were not fitted have zeros.
+using RigCovariance = Eigen::Matrix<double, 30, 30>;
 
 /// Each camera alone (Zhang), then the pose between them as the median view tells it. Throws Error
 /// if OpenCV finds no start, as for views that show the board in one orientation only.
@@ -75,13 +88,13 @@ StereoSolution startSolution(const std::vector<StereoView>& views, const Board& 
 /// Refines everything from `start`, which has one c1Mt per view, to the minimum. With eight
 /// terms k4 k5 k6 carry a weak prior (see the source). Throws Error if the minimum is not reached.
 StereoSolution refineSolution(const StereoSolution& start, const std::vector<StereoView>& views,
-                              const Board& board, LensTerms terms);
+                              const Board& board, const FitOptions& options);
 
-/// First-order uncertainty at the minimum for corner noise `sigma_px` per axis [px]; nothing if
-/// the views leave a parameter undetermined.
-std::optional<Uncertainty> uncertainty(const StereoSolution& solution,
-                                       const std::vector<StereoView>& views, const Board& board,
-                                       LensTerms terms, double sigma_px);
+/// First-order covariance at the minimum, everything else being estimated along; nothing if the
+/// views leave a parameter undetermined.
+std::optional<RigCovariance> rigCovariance(const StereoSolution& solution,
+                                           const std::vector<StereoView>& views, const Board& board,
+                                           const FitOptions& options);
 
 /// Residuals of every view under `solution`.
 std::vector<ViewError> viewErrors(const StereoSolution& solution,
@@ -93,7 +106,7 @@ std::vector<ViewError> viewErrors(const StereoSolution& solution,
 double rms(const std::vector<ViewError>& errors);
 
 /// Degrees of freedom left: scalar residuals minus parameters.
-int redundancy(const std::vector<StereoView>& views, LensTerms terms);
+int redundancy(const std::vector<StereoView>& views, const FitOptions& options);
 
 /// Row differences [px] of each point that both images show, in the order of ids, after
 /// rectification by `rig`, scaled to the mean of the four focal lengths: left minus right. Corners
