@@ -22,6 +22,7 @@ namespace {
 struct TimeArguments {
   std::string cell = RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml";
   std::string sequence;
+  std::string keep;
   std::string target;
   std::string rig;
   std::string out;
@@ -95,8 +96,9 @@ Watched watchCell(const TimeArguments& arguments) {
   Watched watched;
   watched.rig_file = arguments.rig.empty() ? cell.rig : std::filesystem::path(arguments.rig);
   watched.told = loadRig(watched.rig_file);
-  const TagPlate plate =
-      loadTagPlate(targetFor(arguments, cell.arm.gripper_plate, "the cell file's arm section"));
+  const std::filesystem::path target =
+      targetFor(arguments, cell.arm.gripper_plate, "the cell file's arm section");
+  const TagPlate plate = loadTagPlate(target);
   SimulatedPlaceOptions options;
   options.seed = arguments.seed;
   const std::unique_ptr<CalibrationPlace> place = cell.devices.kind == DeviceKind::kSimulated
@@ -106,8 +108,8 @@ Watched watchCell(const TimeArguments& arguments) {
   confirm(*place, arguments);
   watched.place = place->name();
   Progress progress("watching the arm");
-  Outcome<WiggleRecord> record =
-      recordWiggle(*place, cell, watched.told, plate, arguments.wiggle, stepFor(progress));
+  Outcome<WiggleRecord> record = recordWiggle(*place, cell, watched.told, plate, arguments.wiggle,
+                                              stepFor(progress), {arguments.keep, target});
   progress.clear();
   if (!record) {
     throw Error(watched.place + ": " + record.reason());
@@ -224,13 +226,17 @@ void addWhatToWatch(CLI::App& time, TimeArguments& arguments) {
       time.add_option("--seconds", arguments.wiggle.seconds, "How long the arm moves")
           ->check(CLI::Range(3.0, 120.0))
           ->capture_default_str();
+  CLI::Option* keep = time.add_option("--keep", arguments.keep,
+                                      "Also store what was seen, as a sequence for --sequence")
+                          ->type_name("DIR");
   time.add_flag("--yes", arguments.yes, "Do not ask before a real arm moves");
   time.add_option("--sequence", arguments.sequence,
                   "A recorded sequence with robot.csv instead of a cell")
       ->type_name("DIR")
       ->excludes(cell)
       ->excludes(seed)
-      ->excludes(seconds);
+      ->excludes(seconds)
+      ->excludes(keep);
   time.add_option("--target", arguments.target,
                   "marker.yaml of the plate on the gripper; default: the cell file's")
       ->type_name("FILE");

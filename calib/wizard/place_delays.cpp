@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "calib/wizard/place_plate.h"
+#include "camera/recording_folder.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence.h"
+#include "camera/sequence_recorder.h"
 #include "camera/stereo_camera.h"
 #include "core/error.h"
 #include "cycle/arm_motion.h"
@@ -16,11 +18,12 @@
 namespace ringhook {
 namespace {
 
-constexpr double kFindRate = 5.0;      // of full images until the plate is found [Hz]
-constexpr double kWatchRate = 50.0;    // of windows afterwards [Hz]
-constexpr double kFindPatience = 2.0;  // [s]
-constexpr double kLead = 0.3;          // standing still in sight before and after [s]
-constexpr double kGainPerS = 3.0;      // of what the arm lacks of the wiggle
+constexpr double kFindRate = 5.0;           // of full images until the plate is found [Hz]
+constexpr double kWatchRate = 50.0;         // of windows afterwards [Hz]
+constexpr double kFindPatience = 2.0;       // [s]
+constexpr double kLead = 0.3;               // standing still in sight before and after [s]
+constexpr double kGainPerS = 3.0;           // of what the arm lacks of the wiggle
+constexpr std::size_t kFramesWaiting = 64;  // for the disk
 
 LimiterSettings limiterSettings(const CellConfig& cell) {
   LimiterSettings settings;
@@ -40,6 +43,8 @@ class WatchedWiggle {
     record_.command_delay_s = devices.arm.commandDelay();
     lead_s_ = cell.arm.delay_s + record_.command_delay_s + 0.5 * kArmPeriod;
   }
+
+  void keepIn(std::unique_ptr<SequenceRecorder> recorder) { recorder_ = std::move(recorder); }
 
   /// Whether both cameras see the plate, the arm at rest; the reason if not.
   std::string find() {
@@ -82,6 +87,9 @@ class WatchedWiggle {
       }
     }
     devices_.arm.commandVelocity(JointVector::Zero());
+    if (recorder_) {
+      recorder_->close();
+    }
     return std::move(record_);
   }
 
@@ -102,11 +110,15 @@ class WatchedWiggle {
 
   void note(const ArmState& state) {
     record_.states.push_back(state);
-    record_.motion.flange.push_back({state.time, rx60::forward(rx60::rx60(), state.position)});
+    const Pose fMe = rx60::forward(rx60::rx60(), state.position);
+    record_.motion.flange.push_back({state.time, fMe});
+    if (recorder_) {
+      recorder_->addRobot(state.time, state.position, fMe);
+    }
   }
 
   void takeFrames() {
-    while (const std::optional<StereoFrame> frame = devices_.camera.grab(0.0)) {
+    while (std::optional<StereoFrame> frame = devices_.camera.grab(0.0)) {
       if (const std::optional<double> late = devices_.lateness_s()) {
         record_.lateness_s.push_back(*late);
       }
@@ -119,6 +131,9 @@ class WatchedWiggle {
         lost_ = view.reason();
       }
       devices_.camera.setWindows(watch_.windows()[0], watch_.windows()[1]);
+      if (recorder_) {
+        recorder_->addFrame(std::move(*frame), std::nullopt);
+      }
     }
   }
 
@@ -131,7 +146,26 @@ class WatchedWiggle {
   Time last_seen_;
   std::string lost_ = "no images came";
   WiggleRecord record_;
+  std::unique_ptr<SequenceRecorder> recorder_;
 };
+
+/// Opens the folder that keeps a wiggle. Pictures that this machine is too slow to store are left
+/// out, except in virtual time, which waits.
+std::unique_ptr<SequenceRecorder> recorderFor(const KeptWiggle& keep, const CalibrationPlace& place,
+                                              const StereoRig& rig) {
+  if (keep.folder.empty()) {
+    return nullptr;
+  }
+  SequenceInfo info;
+  info.name = "wiggle for calibrate time";
+  info.rate_hz = kWatchRate;
+  info.target = keep.target;
+  info.notes = place.name() + "; times are stamps as they came, no delay taken off";
+  return std::make_unique<SequenceRecorder>(
+      std::make_unique<SequenceWriter>(keep.folder, info, rig), kFramesWaiting,
+      place.canHoldBoard() ? SequenceRecorder::WhenFull::kWait
+                           : SequenceRecorder::WhenFull::kLeaveOut);
+}
 
 /// Leaves neither motion nor a full stream of images behind.
 struct QuietCamera {
@@ -149,7 +183,11 @@ struct QuietCamera {
 
 Outcome<WiggleRecord> recordWiggle(CalibrationPlace& place, const CellConfig& cell,
                                    const StereoRig& rig, const TagPlate& plate,
-                                   const WiggleOptions& options, const DelayStep& step) {
+                                   const WiggleOptions& options, const DelayStep& step,
+                                   const KeptWiggle& keep) {
+  if (!keep.folder.empty()) {
+    checkRecordingFolder(keep.folder, false);
+  }
   const PlaceDevices* devices = place.devices();
   if (devices == nullptr) {
     return Refusal{"no arm and cameras here: a stored sequence is read instead"};
@@ -164,6 +202,7 @@ Outcome<WiggleRecord> recordWiggle(CalibrationPlace& place, const CellConfig& ce
     if (const std::string reason = wiggle.find(); !reason.empty()) {
       return Refusal{"the gripper's plate is not seen at the standby pose: " + reason};
     }
+    wiggle.keepIn(recorderFor(keep, place, rig));
     return wiggle.run(options);
   } catch (...) {
     devices->arm.stop();

@@ -36,15 +36,23 @@ struct WiggleRecord {
   double command_delay_s = 0.0;          ///< Arm::commandDelay()
 };
 
+/// A sequence folder to keep what was seen and told, for readWiggle().
+struct KeptWiggle {
+  std::filesystem::path folder;  ///< new or empty; empty path: nothing is kept
+  std::filesystem::path target;  ///< the plate's marker.yaml, copied into it
+};
+
 /// Told between steps: the part done (0 to 1) and a short state; may throw.
 using DelayStep = std::function<void(double fraction, const std::string& note)>;
 
 /// Moves to the cell's standby pose, looks for the plate and wiggles. Refuses, with the arm at
 /// rest: no devices here, no motion confirmed, way blocked, plate not seen by both cameras. Throws
-/// Error when the plate is lost on the way, DeviceError, and what `step` throws.
+/// Error when the plate is lost on the way or the disk refuses, InputError for a folder in use,
+/// DeviceError, and what `step` throws.
 Outcome<WiggleRecord> recordWiggle(CalibrationPlace& place, const CellConfig& cell,
                                    const StereoRig& rig, const TagPlate& plate,
-                                   const WiggleOptions& options, const DelayStep& step);
+                                   const WiggleOptions& options, const DelayStep& step,
+                                   const KeptWiggle& keep = {});
 
 /// The same from a stored sequence with robot.csv: its images are searched for the plate. Throws
 /// InputError for a sequence without robot.csv or whose rig lacks fMc1.

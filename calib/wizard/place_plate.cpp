@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMargin = 70.0;  // around the tags: their border, and motion until it acts [px]
 constexpr int kSizeStep = 64;     // sizes are multiples of this [px]
-constexpr int kMostMisses = 5;    // then the whole images are read again
+constexpr int kMostMisses = 20;   // then the whole images are read again
 
 int roundedUp(double size) { return kSizeStep * static_cast<int>(std::ceil(size / kSizeStep)); }
 
