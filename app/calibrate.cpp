@@ -6,6 +6,7 @@
 #include "app/calibrate_stereo.h"
 #include "app/calibrate_time.h"
 #include "app/calibrate_verify.h"
+#include "app/calibrate_wizard.h"
 #include "app/options.h"
 
 namespace ringhook {
@@ -14,6 +15,7 @@ void addCalibrateCommand(CLI::App& app) {
   CLI::App& calibrate = addCommand(app, "calibrate", "Set up a cell and judge the result.",
                                    "Example: ringhook calibrate stereo --help");
   calibrate.require_subcommand(1);
+  addCalibrateWizard(calibrate);
   addCalibrateStereo(calibrate);
   addCalibrateRobot(calibrate);
   addCalibrateTime(calibrate);
