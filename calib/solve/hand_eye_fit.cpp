@@ -32,32 +32,6 @@ Eigen::Matrix3d rotationDerivative(const Eigen::Vector3d& w) {
   return Eigen::Matrix3d::Identity() + 0.5 * k + c * k * k;
 }
 
-struct Row {
-  Twist e;
-  Eigen::Matrix<double, 6, 12> J;  // by (a, b)
-};
-
-Row linearise(const HandEye& pose, const PosePair& pair, EyeSetup setup) {
-  const Pose predicted = predictedTarget(pose, pair, setup);
-  const Pose D = pair.cMt.inverse() * predicted;
-  const Eigen::Vector3d w = thetaU(D.linear());
-  Row row;
-  row.e << D.translation(), w;
-  Matrix6 move = Matrix6::Zero();  // of e by a twist at t
-  move.topLeftCorner<3, 3>() = D.linear();
-  move.bottomRightCorner<3, 3>() = rotationDerivative(w);
-  row.J.leftCols<6>() = -move * twistTransform(predicted.inverse());
-  row.J.rightCols<6>() = move;
-  return row;
-}
-
-Matrix6 pairCovariance(const PosePair& pair, const PairNoise& noise) {
-  Matrix6 C = pair.covariance ? Matrix6(*pair.covariance) : Matrix6(Matrix6::Zero());
-  C.diagonal().head<3>().array() += noise.translation_m * noise.translation_m;
-  C.diagonal().tail<3>().array() += noise.rotation_rad * noise.rotation_rad;
-  return C;
-}
-
 struct Problem {
   const std::vector<PosePair>& pairs;
   EyeSetup setup;
@@ -89,10 +63,12 @@ struct Problem {
     g.setZero();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (used[i]) {
-        const Row row = linearise(pose, pairs[i], setup);
+        const PairRow row = linearise(pose, pairs[i], setup);
         const double weight = robust ? 1.0 / (1.0 + distance(i, row.e) / kCauchy) : 1.0;
-        H += weight * row.J.transpose() * information[i] * row.J;
-        g += weight * row.J.transpose() * information[i] * row.e;
+        Eigen::Matrix<double, 6, 12> J;
+        J << row.by_camera, row.by_target;
+        H += weight * J.transpose() * information[i] * J;
+        g += weight * J.transpose() * information[i] * row.e;
       }
     }
   }
@@ -170,11 +146,50 @@ PairNoise noiseFromMedians(const HandEye& pose, const std::vector<PosePair>& pai
   return atLeast({scale * median(t), scale * median(r)});
 }
 
+void judgeMotion(const Problem& problem, HandEyeFit& fit) {
+  Covariance12 H;
+  Vector12 g;
+  problem.normalEquations(fit.pose, H, g);
+  const Vector12 scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Covariance12 scaled = scale.asDiagonal() * H * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Covariance12> eigen(scaled);
+  fit.weakest = (scale.asDiagonal() * eigen.eigenvectors().col(0)).normalized();
+  if (eigen.eigenvalues()[0] > kUndetermined * eigen.eigenvalues()[11]) {
+    const Covariance12 inverse = eigen.eigenvectors() *
+                                 eigen.eigenvalues().cwiseInverse().asDiagonal() *
+                                 eigen.eigenvectors().transpose();
+    fit.covariance = Covariance12(scale.asDiagonal() * inverse * scale.asDiagonal());
+  }
+}
+
+}  // namespace
+
+PairRow linearise(const HandEye& pose, const PosePair& pair, EyeSetup setup) {
+  const Pose predicted = predictedTarget(pose, pair, setup);
+  const Pose D = pair.cMt.inverse() * predicted;
+  const Eigen::Vector3d w = thetaU(D.linear());
+  PairRow row;
+  row.e << D.translation(), w;
+  Matrix6 move = Matrix6::Zero();  // of e by a twist at t
+  move.topLeftCorner<3, 3>() = D.linear();
+  move.bottomRightCorner<3, 3>() = rotationDerivative(w);
+  row.by_camera = -move * twistTransform(predicted.inverse());
+  row.by_target = move;
+  return row;
+}
+
+Covariance6 pairCovariance(const PosePair& pair, const PairNoise& noise) {
+  Matrix6 C = pair.covariance ? Matrix6(*pair.covariance) : Matrix6(Matrix6::Zero());
+  C.diagonal().head<3>().array() += noise.translation_m * noise.translation_m;
+  C.diagonal().tail<3>().array() += noise.rotation_rad * noise.rotation_rad;
+  return C;
+}
+
 // Expectation maximisation (Dempster, Laird, Rubin 1977) for s_t and s_r: the error e of a pair is
 // the view's, of covariance V, plus another d, of covariance S; given e, d has the mean S C^-1 e
 // and the covariance S - S C^-1 S. Without V its fixed point is the mean square of e.
-PairNoise noiseFromMoments(const HandEye& pose, const std::vector<PosePair>& pairs,
-                           const std::vector<bool>& used, EyeSetup setup, PairNoise noise) {
+PairNoise estimateNoise(const HandEye& pose, const std::vector<PosePair>& pairs,
+                        const std::vector<bool>& used, EyeSetup setup, PairNoise noise) {
   for (int round = 0; round < kNoiseRounds; ++round) {
     double t2 = 0.0;
     double r2 = 0.0;
@@ -195,24 +210,6 @@ PairNoise noiseFromMoments(const HandEye& pose, const std::vector<PosePair>& pai
   }
   return noise;
 }
-
-void judgeMotion(const Problem& problem, HandEyeFit& fit) {
-  Covariance12 H;
-  Vector12 g;
-  problem.normalEquations(fit.pose, H, g);
-  const Vector12 scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Covariance12 scaled = scale.asDiagonal() * H * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Covariance12> eigen(scaled);
-  fit.weakest = (scale.asDiagonal() * eigen.eigenvectors().col(0)).normalized();
-  if (eigen.eigenvalues()[0] > kUndetermined * eigen.eigenvalues()[11]) {
-    const Covariance12 inverse = eigen.eigenvectors() *
-                                 eigen.eigenvalues().cwiseInverse().asDiagonal() *
-                                 eigen.eigenvectors().transpose();
-    fit.covariance = Covariance12(scale.asDiagonal() * inverse * scale.asDiagonal());
-  }
-}
-
-}  // namespace
 
 double leastNoiseShare(double residuals) {
   const double c = 2.0 / (9.0 * std::max(residuals, 1.0));
@@ -272,7 +269,7 @@ HandEyeFit fitHandEye(const std::vector<PosePair>& pairs, EyeSetup setup, const 
       break;
     }
     fit.pose = minimise(problem, fit.pose, 50);
-    fit.noise = noiseFromMoments(fit.pose, pairs, fit.used, setup, fit.noise);
+    fit.noise = estimateNoise(fit.pose, pairs, fit.used, setup, fit.noise);
     problem.setNoise(fit.noise);
   }
   judgeMotion(problem, fit);

@@ -45,6 +45,22 @@ struct HandEyeFit {
   Eigen::Matrix<double, 12, 1> weakest;  ///< direction of (a, b) that the pairs tell least of
 };
 
+/// The error of one pair and how it moves.
+struct PairRow {
+  Twist e;  ///< error of the pair: translation [m], rotation vector [rad], in t
+  Eigen::Matrix<double, 6, 6> by_camera;  ///< de/da
+  Eigen::Matrix<double, 6, 6>
+      by_target;  ///< de/db; also by any small twist of the predicted target, at and in t
+};
+PairRow linearise(const HandEye& pose, const PosePair& pair, EyeSetup setup);
+
+/// C_i of the law above.
+Covariance6 pairCovariance(const PosePair& pair, const PairNoise& noise);
+
+/// s_t and s_r of the law above by maximum likelihood over the `used` pairs, from `noise` on.
+PairNoise estimateNoise(const HandEye& pose, const std::vector<PosePair>& pairs,
+                        const std::vector<bool>& used, EyeSetup setup, PairNoise noise);
+
 /// Noise that was estimated from `residuals` residuals may truly be larger: the 1 % point of
 /// chi-square with so many degrees over their number (Wilson and Hilferty 1931), below 1.
 double leastNoiseShare(double residuals);

@@ -33,6 +33,7 @@ Pose otherOrder(const Pose& aMb) {
 
 struct Reading {
   std::string words;
+  bool inverts = false;
   std::function<Pose(const Pose&)> read;
 };
 
@@ -41,7 +42,10 @@ std::vector<Reading> readings(const std::string& whose, const std::string& inver
   const auto inverted = [](const Pose& M) { return M.inverse(); };
   const auto both = [](const Pose& M) { return otherOrder(M).inverse(); };
   const std::string order = whose + " quaternions are in the order w, x, y, z";
-  return {{"", same}, {inverse, inverted}, {order, otherOrder}, {order + " and " + inverse, both}};
+  return {{"", false, same},
+          {inverse, true, inverted},
+          {order, false, otherOrder},
+          {order + " and " + inverse, true, both}};
 }
 
 std::string joined(const std::string& a, const std::string& b) {
@@ -104,7 +108,8 @@ Convention betterConvention(const std::vector<PosePair>& pairs, EyeSetup setup, 
         pair.cMt = t.read(pair.cMt);
       }
       const std::string words = joined(r.words, t.words);
-      if (!words.empty()) {
+      // Both inverted is the same problem with camera and target exchanged: no pairs can tell.
+      if (!words.empty() && !(r.inverts && t.inverts)) {
         consider(changed, setup, words, best);
       }
     }

@@ -27,7 +27,8 @@ std::vector<Start> handEyeStarts(const std::vector<PosePair>& pairs, EyeSetup se
 
 /// Pairs read in every other convention that people mix up: robot poses inverted (or the other
 /// set-up), target poses inverted, quaternions written w, x, y, z, target rows shifted by one. The
-/// best of them; `words` empty if none is better than `median_m` by kConventionGain.
+/// best of them (both inverted is left out: that only exchanges the two unknowns); `words` empty if
+/// none is better than `median_m` by kConventionGain.
 Convention betterConvention(const std::vector<PosePair>& pairs, EyeSetup setup, double median_m);
 constexpr double kConventionGain = 3.0;  ///< noise alone does not make this factor
 

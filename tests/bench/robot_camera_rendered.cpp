@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "../unit/calib_robot/rendered_cell.h"
+#include "calib/solve/joint_zeros.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -45,6 +46,16 @@ void runSeed(unsigned seed, int poses, double side_m) {
               angleError(r.pose.camera, cell.trueCamera()),
               positionError(r.pose.target, RenderedCell::trueTarget()),
               angleError(r.pose.target, RenderedCell::trueTarget()));
+  const JointZeros z = fitJointZeros(c.pairs, cell.joints(), rx60::rx60(), r);
+  std::printf(
+      "        with joint zeros: residual %.3f mm, held out %.3f mm, camera off by %.3f mm %.4f "
+      "deg, "
+      "zeros 2 to 5 %.4f %.4f %.4f %.4f deg, sigma %.4f %.4f %.4f %.4f\n",
+      1e3 * z.residual.translation_m, 1e3 * z.heldout.translation_m,
+      positionError(z.pose.camera, cell.trueCamera()), angleError(z.pose.camera, cell.trueCamera()),
+      57.29578 * z.zero_rad[1], 57.29578 * z.zero_rad[2], 57.29578 * z.zero_rad[3],
+      57.29578 * z.zero_rad[4], 57.29578 * z.sigma_rad[1], 57.29578 * z.sigma_rad[2],
+      57.29578 * z.sigma_rad[3], 57.29578 * z.sigma_rad[4]);
   std::fflush(stdout);
 }
 

@@ -74,11 +74,13 @@ std::vector<PlateView> RenderedCell::around(int count, std::uint64_t seed) {
     return most * (2.0 * static_cast<double>(dice() >> 11U) * 0x1p-53 - 1.0);
   };
   std::vector<PlateView> views;
+  joints_.clear();
   for (int tries = 0; tries < 20 * count && static_cast<int>(views.size()) < count; ++tries) {
     const Vector3d place(0.30 + draw(0.10), draw(0.18), 0.62 + draw(0.12));
     const Vector3d turn(draw(0.6), draw(0.6), draw(0.6));
     if (auto view = look(facing(place, turn))) {
       view->name = "pose " + std::to_string(views.size());
+      joints_.push_back(place_->armState()->position);
       views.push_back(*view);
     }
   }

@@ -37,6 +37,9 @@ class RenderedCell {
   /// triangulate it.
   static std::vector<PointPair> pointsOf(const std::vector<PlateView>& views);
 
+  /// Reported joints of the views that `around` returned last [rad].
+  [[nodiscard]] const std::vector<JointVector>& joints() const { return joints_; }
+
   [[nodiscard]] Pose trueCamera() const;   ///< fMc1, where the left camera really stands
   [[nodiscard]] static Pose trueTarget();  ///< eMg by drawing
 
@@ -44,6 +47,7 @@ class RenderedCell {
   std::uint64_t seed_;
   StereoRig told_;
   std::unique_ptr<CalibrationPlace> place_;
+  std::vector<JointVector> joints_;
 };
 
 }  // namespace ringhook
