@@ -13,6 +13,8 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "calib/wizard/place_delays.h"
+#include "camera/sequence.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file_kind.h"
 
@@ -127,7 +129,8 @@ Watched watchSequence(const TimeArguments& arguments) {
                                            : std::filesystem::path(arguments.rig);
   watched.told = loadRig(watched.rig_file);
   watched.place = "sequence " + arguments.sequence;
-  const TagPlate plate = loadTagPlate(targetFor(arguments, {}, "a sequence"));
+  const TagPlate plate = loadTagPlate(
+      targetFor(arguments, openSequence(arguments.sequence).target_file, "the sequence"));
   Progress progress("reading");
   watched.record = readWiggle(arguments.sequence, watched.told, plate, stepFor(progress));
   return watched;
@@ -191,7 +194,19 @@ void print(const Watched& watched, const DelayReport& report) {
               report.sentence.c_str());
 }
 
+/// Places that cannot be written are found out before the arm moves.
+void checkOutputs(const TimeArguments& arguments) {
+  if (!arguments.out.empty()) {
+    const AtomicFile probe(arguments.out);
+  }
+  const std::filesystem::path keep = arguments.keep;
+  if (!keep.empty() && (isFile(keep) || (isFolder(keep) && !std::filesystem::is_empty(keep)))) {
+    throw InputError("--keep " + arguments.keep + ": expected a new or empty folder");
+  }
+}
+
 void calibrateTime(const TimeArguments& arguments) {
+  checkOutputs(arguments);
   JsonFile json(arguments.json);
   const Watched watched =
       arguments.sequence.empty() ? watchCell(arguments) : watchSequence(arguments);
@@ -238,7 +253,7 @@ void addWhatToWatch(CLI::App& time, TimeArguments& arguments) {
       ->excludes(seconds)
       ->excludes(keep);
   time.add_option("--target", arguments.target,
-                  "marker.yaml of the plate on the gripper; default: the cell file's")
+                  "marker.yaml of the plate on the gripper; default: the cell's or the sequence's")
       ->type_name("FILE");
   time.add_option("--rig", arguments.rig, "Rig with fMc1; default: the cell's or the sequence's")
       ->type_name("FILE");
@@ -253,7 +268,7 @@ void addCalibrateTime(CLI::App& calibrate) {
       "Examples:\n"
       "  ringhook calibrate time --seed 1 --out rig.yaml --json delays.json\n"
       "  ringhook calibrate time --cell cell.yaml --out rig.yaml\n"
-      "  ringhook calibrate time --sequence DIR --target marker.yaml\n"
+      "  ringhook calibrate time --keep DIR ; ringhook calibrate time --sequence DIR\n"
       "A real arm asks before it moves. Ctrl-C stops it. What the figures mean: doc/delays.md");
   addWhatToWatch(time, *arguments);
   time.add_option("--out", arguments->out, "Rig to write: the one told, with the delays")

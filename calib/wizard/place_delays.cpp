@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kFindRate = 5.0;           // of full images until the plate is found [Hz]
 constexpr double kWatchRate = 50.0;         // of windows afterwards [Hz]
-constexpr double kFindPatience = 2.0;       // [s]
+constexpr double kFindPatience = 10.0;      // for the images of that [s],
+constexpr int kFindFrames = 10;             // and for the plate in them
 constexpr double kLead = 0.3;               // standing still in sight before and after [s]
 constexpr double kGainPerS = 3.0;           // of what the arm lacks of the wiggle
 constexpr std::size_t kFramesWaiting = 64;  // for the disk
@@ -51,10 +52,13 @@ class WatchedWiggle {
     std::string reason = "no images came";
     aim(kFindRate);
     const Time begin = devices_.arm.waitState().time;
-    for (Time now = begin; now - begin < kFindPatience; now = devices_.arm.waitState().time) {
+    int frames = 0;
+    for (Time now = begin; now - begin < kFindPatience && frames < kFindFrames;
+         now = devices_.arm.waitState().time) {
       step_(0.0, "looking for the plate");
       while (const std::optional<StereoFrame> frame = devices_.camera.grab(0.0)) {
         const Outcome<HookView> view = watch_.see(*frame);
+        ++frames;
         if (view) {
           aim(kWatchRate);
           return {};
