@@ -8,7 +8,8 @@
 namespace ringhook {
 namespace {
 
-constexpr int kGrid = 24;        // steps across the image
+constexpr int kFitGrid = 24;     // steps across the image for the fit
+constexpr int kLossGrid = 128;   // and for what is lost: near a lens's fold it rises steeply
 constexpr int kIterations = 20;  // of Gauss-Newton; the problem is nearly linear
 
 struct Sample {
@@ -17,19 +18,19 @@ struct Sample {
 };
 
 /// The image's pixels that the lens model has a ray for, on a grid with the borders.
-std::vector<Sample> samplesOf(const CameraModel& camera) {
+std::vector<Sample> samplesOf(const CameraModel& camera, int steps) {
   std::vector<Sample> samples;
-  for (int i = 0; i <= kGrid; ++i) {
-    for (int j = 0; j <= kGrid; ++j) {
-      const Eigen::Vector2d pixel((camera.width - 1.0) * i / kGrid,
-                                  (camera.height - 1.0) * j / kGrid);
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      const Eigen::Vector2d pixel((camera.width - 1.0) * i / steps,
+                                  (camera.height - 1.0) * j / steps);
       const Outcome<Eigen::Vector2d> ray = undistortPixel(camera, pixel);
       if (ray) {
         samples.push_back({pixel, *ray});
       }
     }
   }
-  if (samples.size() < 20) {
+  if (samples.size() < 20U) {
     throw InputError("the lens model cannot be inverted in most of the image");
   }
   return samples;
@@ -105,19 +106,18 @@ FittedLens closestLens(const CameraModel& camera, LensKind kind) {
   if (endsAt(camera, terms)) {
     return {cameraOf(camera, valuesOf(camera, terms)), 0.0};
   }
-  const std::vector<Sample> samples = samplesOf(camera);
-  const CameraModel fitted = fit(camera, terms, samples);
+  const CameraModel fitted = fit(camera, terms, samplesOf(camera, kFitGrid));
   if (!fitted.K.allFinite() || !fitted.distortion.allFinite()) {
     throw InputError("the lens cannot be told in a model with fewer terms");
   }
-  return {fitted, largest(residuals(fitted, samples))};
+  return {fitted, largest(residuals(fitted, samplesOf(camera, kLossGrid)))};
 }
 
 InverseRadial inverseRadial(const CameraModel& camera) {
   const Eigen::Vector2d focal(camera.K(0, 0), camera.K(1, 1));
   double above = 0.0;
   double below = 0.0;
-  const std::vector<Sample> samples = samplesOf(camera);
+  const std::vector<Sample> samples = samplesOf(camera, kLossGrid);
   for (const Sample& s : samples) {
     const Eigen::Vector2d seen = distortNormalised(camera, s.ray);
     const Eigen::Vector2d slope = seen * seen.squaredNorm();

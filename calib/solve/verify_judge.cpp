@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -69,14 +70,19 @@ bool ofConsequence(const Verification& v, const RowDrift& after, double toleranc
   return drift > kRowShare * v.rows.expected_px || v.moved.cost_m > tolerance_m;
 }
 
-/// Is there no rotation to speak of, and a shift along the baseline?
-bool baselineAlone(const RigFits& fits, const CameraMove& m) {
-  const Eigen::Vector3d along = fits.held.rig.c2Mc1.translation().normalized();
-  return m.rotation_rad.norm() < 3.0 * m.rotation_sigma_rad.norm() &&
-         std::abs(m.translation_m.dot(along)) > 0.9 * m.translation_m.norm();
+/// Does a baseline that is longer or shorter explain what six parameters explain? With information
+/// L of the change d, the best multiple of the baseline's direction u leaves
+/// d^T L d - (u^T L d)^2 / u^T L u, chi-square of five degrees of freedom.
+bool baselineAlone(const RigFits& fits, double variance) {
+  const Covariance6 L = fits.moved.covariance.topLeftCorner<6, 6>().inverse() / variance;
+  const Eigen::Matrix<double, 6, 1> d = fits.moved.change.head<6>();
+  Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
+  u.head<3>() = fits.held.rig.c2Mc1.translation().normalized();
+  const double along = u.dot(L * d);
+  return d.dot(L * d) - along * along / u.dot(L * u) < chiSquareQuantile(1.0 - kAlarm, 5.0);
 }
 
-void changed(const RigFits& fits, Verification& v) {
+void changed(const RigFits& fits, double variance, Verification& v) {
   const double explained = fits.held.squares - fits.both.squares;
   const double by_focal = fits.moved.squares - fits.both.squares;
   const bool focal = v.focal.chi_square > v.focal.limit && by_focal > kFocalShare * explained;
@@ -91,11 +97,12 @@ void changed(const RigFits& fits, Verification& v) {
                     100.0 * c[6], 100.0 * c[7]));
     return;
   }
-  if (baselineAlone(fits, v.moved)) {
+  if (baselineAlone(fits, variance)) {
     v.state = RigState::kRecalibrate;
     v.reasons.push_back(
-        fmt::format("lengths come out {:+.2f} % wrong, as if the baseline alone had changed: make "
-                    "sure that the target's size is as stated, else calibrate anew",
+        fmt::format("lengths come out {:+.2f} % wrong: the baseline has changed, the cameras have "
+                    "turned a little towards each other, or the target's size is not as stated; "
+                    "measure the target, else calibrate anew",
                     100.0 * v.bar.mean_m / v.bar.known_m));
     return;
   }
@@ -109,13 +116,12 @@ void judgeRig(const StereoRig& rig, const RigFits& fits, const RowDrift& after, 
               Verification& v) {
   v.corner_sigma_px = std::sqrt(fits.both.squares / fits.both.freedom);
   const double noise = std::max(v.corner_sigma_px, 1e-3);
-  fillMove(fits, noise * noise * doubtFactor(rig, v.views), v);
-  const bool significant =
-      v.moved.chi_square > v.moved.limit ||
-      (fits.held.squares - fits.refocused.squares) / (noise * noise * doubtFactor(rig, v.views)) >
-          v.focal.limit;
+  const double variance = noise * noise * doubtFactor(rig, v.views);
+  fillMove(fits, variance, v);
+  const bool significant = v.moved.chi_square > v.moved.limit ||
+                           (fits.held.squares - fits.refocused.squares) / variance > v.focal.limit;
   if (significant && ofConsequence(v, after, tolerance_m)) {
-    changed(fits, v);
+    changed(fits, variance, v);
   } else if (v.corner_sigma_px > kMuchNoise * v.expected_sigma_px) {
     v.state = RigState::kRecalibrate;
     v.reasons.push_back(fmt::format(

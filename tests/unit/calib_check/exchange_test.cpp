@@ -210,6 +210,22 @@ TEST_F(Exchange, StatesTheLossThatPixelsReallyHave) {
     }
   }
   EXPECT_NEAR(fitted.loss_px, worst, 0.05 * worst);
+  // A lens that nearly folds in the corners, where the loss rises steeply.
+  CameraModel steep = full;
+  steep.K.topLeftCorner<2, 2>() *= 0.75;
+  steep.distortion << -0.3, 0.172, 0.0013, 0.0, -0.14;
+  const FittedLens rough = closestLens(steep, LensKind::kRadTan);
+  double most = 0.0;
+  for (double u = 0.0; u <= 1279.0; u += 4.0) {
+    for (double v = 0.0; v <= 1023.0; v += 4.0) {
+      const auto ray = undistortPixel(steep, {u, v});
+      if (ray) {
+        most =
+            std::max(most, (projectNormalised(rough.camera, *ray) - Eigen::Vector2d(u, v)).norm());
+      }
+    }
+  }
+  EXPECT_NEAR(rough.loss_px, most, 0.15 * most);
   // The least-squares lens is better than the same terms cut off.
   CameraModel cut = full;
   cut.distortion = full.distortion.head(4);
