@@ -71,9 +71,19 @@ void finish(const RobotJob& job, const Pose& camera, const Verdict& verdict) {
   std::printf("wrote %s\n", job.out.c_str());
 }
 
+// What a job refuses, with the name of what it was given.
+template <class Job>
+auto named(const std::string& source, const Job& run) {
+  try {
+    return run();
+  } catch (const InputError& e) {
+    throw InputError(source + ": " + e.what());
+  }
+}
+
 void fromPoints(const RobotJob& job, JsonFile& json) {
   const std::vector<PointPair> points = readPointPairs(job.points);
-  const PointFit fit = fitPoints(points);
+  const PointFit fit = named(job.points, [&] { return fitPoints(points); });
   json.commit(summaryOf(fit, points).dump(2) + "\n");
   printResult(fit, points);
   finish(job, fit.fMc1, fit.verdict);
@@ -84,7 +94,9 @@ void fromPairs(const RobotJob& job, JsonFile& json) {
   HandEyeResult result;
   {
     Progress progress("calibrating");
-    result = calibrateRobotCamera(pairs, parseSetup(job.setup), hookFor(progress));
+    const EyeSetup setup = parseSetup(job.setup);
+    result =
+        named(job.pairs, [&] { return calibrateRobotCamera(pairs, setup, hookFor(progress)); });
   }
   json.commit(summaryOf(result).dump(2) + "\n");
   printResult(result, pairs);
@@ -106,7 +118,9 @@ void fromImages(const RobotJob& job, JsonFile& json) {
   PlateCalibration calibration;
   {
     Progress progress("calibrating");
-    calibration = calibrateFromViews(found.views, parseSetup(job.setup), hookFor(progress));
+    const EyeSetup setup = parseSetup(job.setup);
+    calibration = named("--images with the plate in sight",
+                        [&] { return calibrateFromViews(found.views, setup, hookFor(progress)); });
   }
   calibration.blind.insert(calibration.blind.begin(), found.blind.begin(), found.blind.end());
   json.commit(summaryOf(calibration).dump(2) + "\n");
