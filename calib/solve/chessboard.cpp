@@ -63,17 +63,22 @@ void putDarkSquareFirst(const GrayImage& image, Corners& corners, const Board& b
   }
 }
 
-// OpenCV's search, in an image that is made small enough for live pictures.
-bool detect(const GrayImage& image, const Board& board, Corners& corners) {
+// The image, made small enough to search in live pictures.
+cv::Mat forSearch(const GrayImage& image) {
   const int reduction =
       (std::max(image.width, image.height) + kLargestSearch_px - 1) / kLargestSearch_px;
   cv::Mat mat = matOf(image);
-  if (reduction > 1) {
-    cv::Mat small;
-    cv::resize(mat, small, cv::Size(image.width / reduction, image.height / reduction), 0.0, 0.0,
-               cv::INTER_AREA);
-    mat = small;
+  if (reduction <= 1) {
+    return mat;
   }
+  cv::Mat small;
+  cv::resize(mat, small, cv::Size(image.width / reduction, image.height / reduction), 0.0, 0.0,
+             cv::INTER_AREA);
+  return small;
+}
+
+bool detect(const GrayImage& image, const Board& board, Corners& corners) {
+  const cv::Mat mat = forSearch(image);
   std::vector<cv::Point2f> found;
   if (!cv::findChessboardCorners(mat, cv::Size(board.columns, board.rows), found) ||
       found.size() != board.size()) {
@@ -90,6 +95,21 @@ bool detect(const GrayImage& image, const Board& board, Corners& corners) {
 }
 
 }  // namespace
+
+std::string seenChessboard(const GrayImage& image) {
+  try {
+    std::vector<cv::Point2f> corners;
+    cv::Mat meta;
+    const int flags = cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE;
+    if (!cv::findChessboardCornersSB(forSearch(image), cv::Size(3, 3), corners, flags, meta)) {
+      return "";
+    }
+    const auto [fewer, more] = std::minmax(meta.rows, meta.cols);
+    return std::to_string(more) + "x" + std::to_string(fewer);
+  } catch (const cv::Exception&) {
+    return "";  // an explanation that cannot be had is no failure
+  }
+}
 
 std::vector<int> refinementWindows(const Corners& rough, const Board& board) {
   std::vector<int> windows;

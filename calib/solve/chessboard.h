@@ -12,9 +12,13 @@ namespace ringhook {
 /// Finds all inner corners. The order is right-handed as one looks at the print (z_t into the
 /// board), and where the print allows it (columns + rows odd) the first square, between the first
 /// two rows and columns, is a dark one, so that the order does not depend on the camera.
-/// Refuses, with a reason, an image without the whole board (naming the number of corners seen
-/// where another chessboard is there) or with squares too small to be measured.
+/// Refuses, with a reason, an image without the whole board or with squares too small to be
+/// measured.
 Outcome<BoardSighting> findChessboard(const GrayImage& image, const Board& board);
+
+/// Inner corners, "9x6", of whatever chessboard is seen; empty if none is. Slow: for explaining a
+/// refusal, not for live images.
+std::string seenChessboard(const GrayImage& image);
 
 /// A grid of columns x rows points in right-handed order: rows are reversed where that is needed.
 void makeRightHanded(Corners& grid, int columns, int rows);

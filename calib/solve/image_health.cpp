@@ -90,4 +90,40 @@ double edgeBlur(const GrayImage& image, const Eigen::Vector2d& a, const Eigen::V
   return contrast / (slope * std::sqrt(2.0 * std::numbers::pi));
 }
 
+double strongestEdgesBlur(const GrayImage& image) {
+  constexpr int kReach_px = 15;
+  constexpr std::size_t kEdges = 200;
+  struct Edge {
+    double slope = 0.0;
+    Eigen::Vector2d at;
+    Eigen::Vector2d across;
+  };
+  std::vector<Edge> edges;
+  for (int y = kReach_px; y < image.height - kReach_px; y += 2) {
+    for (int x = kReach_px; x < image.width - kReach_px; x += 2) {
+      const Eigen::Vector2d slope(image.row(y)[x + 1] - image.row(y)[x - 1],
+                                  image.row(y + 1)[x] - image.row(y - 1)[x]);
+      if (slope.norm() > 4.0) {
+        edges.push_back({slope.norm(), {x, y}, slope.normalized()});
+      }
+    }
+  }
+  const std::size_t kept = std::min(kEdges, edges.size());
+  std::partial_sort(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(kept), edges.end(),
+                    [](const Edge& a, const Edge& b) { return a.slope > b.slope; });
+  std::vector<double> blurs;
+  for (std::size_t i = 0; i < kept; ++i) {
+    const Eigen::Vector2d reach = kReach_px * edges[i].across;
+    const double blur = edgeBlur(image, edges[i].at - reach, edges[i].at + reach);
+    if (std::isfinite(blur)) {
+      blurs.push_back(blur);
+    }
+  }
+  if (blurs.size() < kEdges / 4) {
+    return 0.0;
+  }
+  std::sort(blurs.begin(), blurs.end());
+  return blurs[blurs.size() / 2];
+}
+
 }  // namespace ringhook

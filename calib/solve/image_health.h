@@ -22,4 +22,8 @@ std::string exposureFault(const GrayImage& image);
 /// middle; infinity where nothing crosses it.
 double edgeBlur(const GrayImage& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
+/// Blur [px] of the picture's strongest edges, whatever they belong to: their median; 0 where there
+/// are too few edges to tell.
+double strongestEdgesBlur(const GrayImage& image);
+
 }  // namespace ringhook

@@ -1,5 +1,9 @@
 #include "calib/solve/stereo_images.h"
 
+#include <algorithm>
+#include <future>
+
+#include "calib/solve/chessboard.h"
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "core/error.h"
@@ -7,42 +11,87 @@
 namespace ringhook {
 namespace {
 
+constexpr std::size_t kAtOnce = 2;  // pairs examined at the same time
+constexpr std::size_t kEnough = 4;  // views, below which something is wrong with all pictures
+
 std::string sizeOf(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void requireSize(const std::filesystem::path& path, const GrayImage& image, int width, int height) {
-  if (image.width != width || image.height != height) {
-    throw InputError(path.string() + ": the image is " + sizeOf(image.width, image.height) +
+void requireSize(const std::filesystem::path& path, int image_width, int image_height, int width,
+                 int height) {
+  if (image_width != width || image_height != height) {
+    throw InputError(path.string() + ": the image is " + sizeOf(image_width, image_height) +
                      " px, expected " + sizeOf(width, height) + " px as in the images before it");
   }
 }
 
-// One pair: into the usable views, or into the rejected ones with the reason.
-void examinePair(const std::filesystem::path& left_path, const std::filesystem::path& right_path,
-                 const Board& board, StereoViews& views) {
-  const std::string left_name = left_path.filename().string();
-  const std::string right_name = right_path.filename().string();
+// What one pair of files gives.
+struct Examined {
+  StereoView view;
+  std::string reason;  // why it cannot be used; empty if it can
+  int right_width = 0;
+  int right_height = 0;
+};
+
+Examined examinePair(const std::filesystem::path& left_path,
+                     const std::filesystem::path& right_path, const Board& board) {
+  Examined pair;
+  pair.view.left_name = left_path.filename().string();
+  pair.view.right_name = right_path.filename().string();
   const GrayImage left_image = readGrayImage(left_path);
   const GrayImage right_image = readGrayImage(right_path);
-  const Outcome<BoardSighting> left_found = findBoard(left_image, board);
-  if (!left_found) {
-    views.rejected.push_back({left_name, right_name, left_name + ": " + left_found.reason()});
+  pair.view.width = left_image.width;
+  pair.view.height = left_image.height;
+  pair.right_width = right_image.width;
+  pair.right_height = right_image.height;
+  const Outcome<BoardSighting> left = findBoard(left_image, board);
+  if (!left) {
+    pair.reason = pair.view.left_name + ": " + left.reason();
+    return pair;
+  }
+  const Outcome<BoardSighting> right = findBoard(right_image, board);
+  if (!right) {
+    pair.reason = pair.view.right_name + ": " + right.reason();
+    return pair;
+  }
+  pair.view.left = *left;
+  pair.view.right = orderedLike(*left, *right, board);
+  return pair;
+}
+
+void sortIn(const Examined& pair, const std::filesystem::path& left,
+            const std::filesystem::path& right, StereoViews& views) {
+  if (!pair.reason.empty()) {
+    views.rejected.push_back({pair.view.left_name, pair.view.right_name, pair.reason});
     return;
   }
-  const BoardSighting& left = left_found.value();
-  const Outcome<BoardSighting> right_found = findBoard(right_image, board);
-  if (!right_found) {
-    views.rejected.push_back({left_name, right_name, right_name + ": " + right_found.reason()});
+  const StereoView& first = views.usable.empty() ? pair.view : views.usable.front();
+  requireSize(left, pair.view.width, pair.view.height, first.width, first.height);
+  requireSize(right, pair.right_width, pair.right_height, first.width, first.height);
+  views.usable.push_back(pair.view);
+}
+
+// Too few views are most often the wrong board: says what the first picture shows instead.
+void tellOtherBoard(const std::vector<std::filesystem::path>& left, const Board& board,
+                    StereoViews& views) {
+  for (std::size_t i = 0; i < left.size() && !views.rejected.empty(); ++i) {
+    if (left[i].filename() != views.rejected.front().left_name) {
+      continue;
+    }
+    const std::string seen = seenChessboard(readGrayImage(left[i]));
+    if (!seen.empty()) {
+      views.rejected.front().reason += "; a chessboard with " + seen +
+                                       " inner corners is there, and --board is " + toString(board);
+    }
     return;
   }
-  const BoardSighting right = orderedLike(left, right_found.value(), board);
-  const bool first = views.usable.empty();
-  const int width = first ? left_image.width : views.usable.front().width;
-  const int height = first ? left_image.height : views.usable.front().height;
-  requireSize(left_path, left_image, width, height);
-  requireSize(right_path, right_image, width, height);
-  views.usable.push_back({left_name, right_name, width, height, left, right});
+}
+
+void requireOtherFile(const std::filesystem::path& left, const std::filesystem::path& right) {
+  if (std::filesystem::weakly_canonical(left) == std::filesystem::weakly_canonical(right)) {
+    throw InputError(left.string() + ": the same file is in --left and --right");
+  }
 }
 
 }  // namespace
@@ -64,12 +113,21 @@ StereoViews findViews(const std::vector<std::filesystem::path>& left,
                      std::to_string(right.size()) + ", expected one right image for each left one");
   }
   StereoViews views;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    hook(static_cast<double>(i) / static_cast<double>(left.size()), left[i].filename().string());
-    if (std::filesystem::weakly_canonical(left[i]) == std::filesystem::weakly_canonical(right[i])) {
-      throw InputError(left[i].string() + ": the same file is in --left and --right");
+  for (std::size_t first = 0; first < left.size(); first += kAtOnce) {
+    hook(static_cast<double>(first) / static_cast<double>(left.size()),
+         left[first].filename().string());
+    std::vector<std::future<Examined>> running;
+    for (std::size_t i = first; i < std::min(first + kAtOnce, left.size()); ++i) {
+      requireOtherFile(left[i], right[i]);
+      running.push_back(
+          std::async(std::launch::async, [&, i] { return examinePair(left[i], right[i], board); }));
     }
-    examinePair(left[i], right[i], board, views);
+    for (std::size_t k = 0; k < running.size(); ++k) {
+      sortIn(running[k].get(), left[first + k], right[first + k], views);
+    }
+  }
+  if (views.usable.size() < kEnough) {
+    tellOtherBoard(left, board, views);
   }
   hook(1.0, std::to_string(views.usable.size()) + " of " + std::to_string(left.size()) + " pairs");
   return views;

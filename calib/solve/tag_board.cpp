@@ -16,6 +16,15 @@ constexpr double kReduction = 2.0;      // of the image in which squares are sea
 constexpr int kReducedFrom_px = 1200;   // images at least this large
 constexpr double kSmallestMargin = 15;  // of a code that is believed [grey levels]
 constexpr double kFarthest = 0.3;       // of a corner from its prediction [tag sides]
+constexpr double kBorder_px = 5.0;      // what the fit of a side looks at beyond a corner
+
+// A tag that reaches the border: its side is cut there, and a corner may be extrapolated.
+bool cutOff(const GrayImage& image, const TagDetection& tag) {
+  return std::any_of(tag.corners.begin(), tag.corners.end(), [&](const Eigen::Vector2d& p) {
+    return !(p.x() >= kBorder_px && p.y() >= kBorder_px && p.x() <= image.width - 1 - kBorder_px &&
+             p.y() <= image.height - 1 - kBorder_px);
+  });
+}
 
 std::vector<TagDetection> tagsOf(const GrayImage& image, const Board& board) {
   TagDetector detector(board.family, 1, true);
@@ -28,7 +37,7 @@ std::vector<TagDetection> tagsOf(const GrayImage& image, const Board& board) {
   }
   std::erase_if(tags, [&](const TagDetection& tag) {
     return tag.id >= board.columns * board.rows || count[tag.id] > 1 || tag.hamming > 1 ||
-           tag.decision_margin < kSmallestMargin;
+           tag.decision_margin < kSmallestMargin || cutOff(image, tag);
   });
   std::sort(tags.begin(), tags.end(),
             [](const TagDetection& a, const TagDetection& b) { return a.id < b.id; });

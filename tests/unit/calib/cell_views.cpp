@@ -75,7 +75,7 @@ void renderViews(int count, std::uint64_t seed,
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d middle(0.55 + 0.2 * uniform(random), 0.24 * uniform(random),
+    const Eigen::Vector3d middle(0.65 + 0.15 * uniform(random), 0.24 * uniform(random),
                                  0.7 + 0.26 * uniform(random));
     const double tilt = 0.35 + 0.35 * std::abs(uniform(random));
     world.holdBoard(heldAt(board, middle, 2.4 * i, tilt));
