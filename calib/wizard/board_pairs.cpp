@@ -67,12 +67,16 @@ class BoardPairs {
   void takeHeld() {
     int misses = 0;
     for (int turn = 0; !enough() && turn < 3 * options_.goal; ++turn) {
-      Hold hold = nextHold(coverage_);
-      hold.third = (hold.third + turn / options_.goal) % kImageThirds;  // not the same for ever
+      const Hold hold = nextHold(coverage_);
       place_.holdBoard(context_.rough.fMc1.value() *
                        heldPose(hold, context_.rough, context_.board));
       const auto frame = place_.takePair();
-      misses = frame && keep(*frame, false) ? 0 : misses + 1;
+      if (frame && keep(*frame, false)) {
+        misses = 0;
+        continue;
+      }
+      ++coverage_.centres.at(static_cast<std::size_t>(hold.third));  // on to the next place
+      ++misses;
       if (misses > kMostMisses) {
         throw Error(
             "the board is not seen wherever it is held: does the cell file's rig say where "

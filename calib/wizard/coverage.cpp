@@ -17,7 +17,9 @@ constexpr double kHeldTilt = std::numbers::pi / 6.0;     // [rad]
 constexpr int kFewestPairs = 12;
 constexpr int kFewestThirds = 8;
 constexpr double kLeastSpread = 1.35;  // largest over smallest
-constexpr double kMarginPx = 25.0;     // to the image's border
+// Before the belt and what hangs from it, which would hide the board.
+constexpr std::array<double, kDistances> kShareOfWorkingDistance = {0.6, 0.72, 0.85};
+constexpr double kMarginPx = 25.0;  // to the image's border
 constexpr std::array<int, kImageThirds> kOrder = {4, 0, 8, 2, 6, 1, 7, 3, 5};
 
 int thirdOf(const Eigen::Vector2d& pixel, int width, int height) {
@@ -248,15 +250,16 @@ Hold nextHold(const Coverage& coverage) {
 }
 
 std::string words(const Hold& hold) {
-  constexpr std::array<const char*, kDistances> kFar = {"near", "at working distance",
-                                                        "a little farther away"};
+  constexpr std::array<const char*, kDistances> kFar = {
+      "at six tenths of the working distance", "at seven tenths of the working distance",
+      "a little before the place where the hooks pass"};
   return thirdWords(hold.third) + " of the left picture, " + tiltWords(hold.tilt) + ", " +
          kFar.at(static_cast<std::size_t>(hold.distance));
 }
 
 Pose heldPose(const Hold& hold, const StereoRig& rough, const Board& board) {
-  constexpr std::array<double, kDistances> kFactor = {0.75, 1.0, 1.25};
-  const double far = vergenceDistance(rough) * kFactor.at(static_cast<std::size_t>(hold.distance));
+  const double far =
+      vergenceDistance(rough) * kShareOfWorkingDistance.at(static_cast<std::size_t>(hold.distance));
   const auto points = board.points();
   Eigen::Vector3d centre_t = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) {

@@ -19,6 +19,7 @@ constexpr int kImageThirds = 9;  ///< of each image, row by row
 enum class Tilt { kFlat, kLeftAway, kRightAway, kTopAway, kBottomAway };
 constexpr int kTilts = 5;
 
+/// From the cameras, all before the place where the hooks pass.
 enum class Distance { kNear, kMiddle, kFar };
 constexpr int kDistances = 3;
 

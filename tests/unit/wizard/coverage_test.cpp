@@ -79,13 +79,15 @@ TEST(HeldBoard, TopAwayMakesTheUpperEdgeShorter) {
 TEST(HeldBoard, IsLargerWhenNear) {
   const double near = shown({4, Tilt::kFlat, Distance::kNear}).size;
   const double far = shown({4, Tilt::kFlat, Distance::kFar}).size;
-  EXPECT_NEAR(near / far, 1.25 / 0.75, 0.1);
+  EXPECT_NEAR(near / far, 0.85 / 0.6, 0.1);
 }
 
 TEST(BoardAppearance, SizeIsTheSideOfAnEqualSquare) {
-  // 8 x 5 squares of 30 mm at the vergence distance, f = 2500 px, 2048 px wide.
+  // n points a distance d apart vary by (n^2 - 1) d^2 / 12; here 9 x 6 of 30 mm at 0.72 of 1.35 m,
+  // f = 2500 px, 2048 px wide.
   const Appearance flat = shown({4, Tilt::kFlat, Distance::kMiddle});
-  EXPECT_NEAR(flat.size, std::sqrt(0.24 * 0.15) * 2500.0 / 1.35 / 2048.0, 0.03);
+  const double side_m = 0.030 * std::sqrt(std::sqrt(80.0) * std::sqrt(35.0));
+  EXPECT_NEAR(flat.size, side_m * 2500.0 / (0.72 * 1.35) / 2048.0, 0.01);
 }
 
 TEST(BoardCoverage, FollowingTheAdviceCoversEverything) {
