@@ -7,21 +7,9 @@ namespace {
 
 class NetworkPlace final : public DevicePlace {
  public:
-  /// \param camera and \param arm are the ones that are handed on, with what only they can tell.
+  /// \param watched the same as `camera`, for what only it can tell.
   NetworkPlace(const CellConfig& cell, std::unique_ptr<Rx60Arm> arm,
-               std::unique_ptr<AravisStereoCamera> camera)
-      : NetworkPlace(cell, *camera, std::move(arm), std::move(camera)) {}
-
-  [[nodiscard]] std::string name() const override { return "cell on a network: " + cell().name; }
-  [[nodiscard]] bool needsConfirmation() const override { return !confirmed_; }
-  void confirmMotion() override {
-    arm().rearm();
-    confirmed_ = true;
-  }
-
- private:
-  NetworkPlace(const CellConfig& cell, const AravisStereoCamera& watched,
-               std::unique_ptr<Rx60Arm> arm, std::unique_ptr<AravisStereoCamera> camera)
+               std::unique_ptr<StereoCamera> camera, const AravisStereoCamera& watched)
       : DevicePlace(cell, std::move(arm), std::move(camera), cell.devices.cameras.host_clock) {
     const bool host_clock = cell.devices.cameras.host_clock;
     const double half_exposure_s = 0.5 * cell.devices.cameras.exposure_s;
@@ -33,6 +21,14 @@ class NetworkPlace final : public DevicePlace {
     });
   }
 
+  [[nodiscard]] std::string name() const override { return "cell on a network: " + cell().name; }
+  [[nodiscard]] bool needsConfirmation() const override { return !confirmed_; }
+  void confirmMotion() override {
+    arm().rearm();
+    confirmed_ = true;
+  }
+
+ private:
   bool confirmed_ = false;
 };
 
@@ -44,8 +40,9 @@ std::unique_ptr<CalibrationPlace> openNetworkPlace(const CellConfig& cell) {
                      ": field devices.kind: expected network for devices on a network");
   }
   auto camera = openCameras(cell, 0.0);
+  const AravisStereoCamera& watched = *camera;
   auto arm = openArm(cell, Rx60Arm::Needs::kState);
-  return std::make_unique<NetworkPlace>(cell, std::move(arm), std::move(camera));
+  return std::make_unique<NetworkPlace>(cell, std::move(arm), std::move(camera), watched);
 }
 
 }  // namespace ringhook
