@@ -24,6 +24,7 @@ constexpr double kFindPatience = 10.0;      // for the images of that [s],
 constexpr int kFindFrames = 10;             // and for the plate in them
 constexpr double kLead = 0.3;               // standing still in sight before and after [s]
 constexpr double kGainPerS = 3.0;           // of what the arm lacks of the wiggle
+constexpr int kMissesLost = 5;              // frames in a row
 constexpr std::size_t kFramesWaiting = 64;  // for the disk
 
 LimiterSettings limiterSettings(const CellConfig& cell) {
@@ -85,7 +86,8 @@ class WatchedWiggle {
       }
       note(state);
       takeFrames();
-      if (state.time - last_seen_ > kPlateLost) {
+      const double unseen_s = state.time - last_seen_;
+      if ((misses_ >= kMissesLost && unseen_s > kPlateLost) || unseen_s > kPlateLostAtLatest) {
         throw Error("the cameras lost sight of the gripper's plate (" + lost_ +
                     "): the arm was stopped");
       }
@@ -130,9 +132,11 @@ class WatchedWiggle {
       const Outcome<HookView> view = watch_.see(*frame);
       if (view) {
         last_seen_ = std::max(last_seen_, frame->time);
+        misses_ = 0;
         record_.motion.plate.push_back(*view);
       } else {
         lost_ = view.reason();
+        ++misses_;
       }
       devices_.camera.setWindows(watch_.windows()[0], watch_.windows()[1]);
       if (recorder_) {
@@ -148,6 +152,7 @@ class WatchedWiggle {
   double lead_s_ = 0.0;
   Time begin_;
   Time last_seen_;
+  int misses_ = 0;  // since then
   std::string lost_ = "no images came";
   WiggleRecord record_;
   std::unique_ptr<SequenceRecorder> recorder_;

@@ -23,7 +23,9 @@
 
 namespace ringhook {
 
-inline constexpr double kPlateLost = 0.3;  ///< without a sight for longer the wiggle ends [s]
+inline constexpr double kPlateLost = 0.3;  ///< without a sight for longer the wiggle ends [s];
+/// cameras that deliver less than five pictures in it are waited for until then [s]
+inline constexpr double kPlateLostAtLatest = 1.0;
 
 /// What was seen and told during a wiggle.
 struct WiggleRecord {
