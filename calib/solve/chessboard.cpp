@@ -94,6 +94,47 @@ bool detect(const GrayImage& image, const Board& board, Corners& corners) {
   return true;
 }
 
+double greyAt(const GrayImage& image, const Eigen::Vector2d& p) {
+  const auto x = std::clamp(std::lround(p.x()), 0L, image.width - 1L);
+  const auto y = std::clamp(std::lround(p.y()), 0L, image.height - 1L);
+  return image.row(static_cast<int>(y))[x];
+}
+
+// Do squares of both colours go on beyond a line of outermost corners? `last` is that line and
+// `before` the next one inside.
+bool goesOn(const GrayImage& image, const Corners& last, const Corners& before) {
+  std::size_t crossings = 0;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    const Eigen::Vector2d out = 0.3 * (last[i] - before[i]);
+    const Eigen::Vector2d along = 0.3 * (i == 0 ? last[1] - last[0] : last[i] - last[i - 1]);
+    const Eigen::Vector2d next = 2.0 * last[i] - before[i];
+    const double inner = greyAt(image, next - out - along) - greyAt(image, next - out + along);
+    const double outer = greyAt(image, next + out - along) - greyAt(image, next + out + along);
+    const double known =
+        greyAt(image, last[i] - out - along) - greyAt(image, last[i] - out + along);
+    const double needed = 0.5 * std::abs(known);
+    if (inner * outer < 0.0 && std::min(std::abs(inner), std::abs(outer)) > needed) {
+      ++crossings;
+    }
+  }
+  return 4 * crossings >= 3 * last.size();
+}
+
+// OpenCV's search is content with a part of a larger board.
+bool partOfLarger(const GrayImage& image, const Corners& corners, const Board& board) {
+  const auto line = [&](int index, bool row) {
+    Corners points;
+    for (int k = 0; k < (row ? board.columns : board.rows); ++k) {
+      points.push_back(corners[row ? at(board, index, k) : at(board, k, index)]);
+    }
+    return points;
+  };
+  return goesOn(image, line(0, true), line(1, true)) ||
+         goesOn(image, line(board.rows - 1, true), line(board.rows - 2, true)) ||
+         goesOn(image, line(0, false), line(1, false)) ||
+         goesOn(image, line(board.columns - 1, false), line(board.columns - 2, false));
+}
+
 }  // namespace
 
 std::string seenChessboard(const GrayImage& image) {
@@ -142,6 +183,10 @@ Outcome<BoardSighting> findChessboard(const GrayImage& image, const Board& board
   const std::vector<double> spacings = gridSpacings(corners, board.columns, board.rows);
   if (*std::min_element(spacings.begin(), spacings.end()) < kSmallestSquare_px) {
     return Refusal{"the board's squares are smaller than 5 px"};
+  }
+  if (partOfLarger(image, corners, board)) {
+    return Refusal{"a chessboard with more than " + std::to_string(board.columns) + "x" +
+                   std::to_string(board.rows) + " inner corners is seen"};
   }
   makeRightHanded(corners, board.columns, board.rows);
   putDarkSquareFirst(image, corners, board);

@@ -77,7 +77,7 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> edgeBeside(const Board& board,
   return {point, point + Eigen::Vector2d(std::min(2.0 * radius, 0.5 * p), 0.0)};
 }
 
-// Median blur [px] of the board's own edges, and the pitch [px] there; nothing if none is measured.
+// Median blur [px] of the board's own edges, and the pitch [px] there; zeros if none has contrast.
 struct Sharpness {
   double blur_px = 0.0;
   double pitch_px = 0.0;
@@ -161,6 +161,10 @@ Outcome<BoardSighting> findBoard(const GrayImage& image, const Board& board) {
                      " points of the board are seen, expected six or more in two rows and columns"};
     }
     const Sharpness sharpness = sharpnessOf(image, board, *found);
+    if (sharpness.pitch_px <= 0.0) {
+      const std::string fault = faultOf(image);
+      return Refusal{fault.empty() ? "the board's edges have too little contrast" : fault};
+    }
     const double allowed = std::max(kMostBlur_px, kMostBlur * sharpness.pitch_px);
     if (sharpness.blur_px > allowed) {
       return Refusal{blurText(sharpness.blur_px, allowed)};

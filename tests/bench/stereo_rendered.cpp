@@ -35,8 +35,9 @@ Pictures take(int count, std::uint64_t seed, const std::filesystem::path& out) {
     const auto right = findBoard(frame.right, workspaceBoard());
     pictures.finding_cpu_s += cpuSeconds() - start;
     if (left && right) {
-      pictures.views.usable.push_back(
-          {"left" + number, "right" + number, frame.left.width, frame.left.height, *left, *right});
+      pictures.views.usable.push_back({"left" + number, "right" + number, frame.left.width,
+                                       frame.left.height, *left,
+                                       orderedLike(*left, *right, workspaceBoard())});
     } else {
       pictures.views.rejected.push_back(
           {"left" + number, "right" + number,

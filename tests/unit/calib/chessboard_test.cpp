@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "board_scene.h"
@@ -104,6 +105,52 @@ TEST(Chessboard, RefusesAnImageWithoutTheBoardSayingWhy) {
   const auto other = findBoard(image, parseBoard("chessboard:10x7:25mm"));
   ASSERT_FALSE(other);
   EXPECT_THAT(other.reason(), HasSubstr("10x7"));
+}
+
+// Mean over (2 n + 1)^2 pixels.
+GrayImage smeared(const GrayImage& image, int n) {
+  GrayImage result = image;
+  for (int y = n; y + n < image.height; ++y) {
+    for (int x = n; x + n < image.width; ++x) {
+      int sum = 0;
+      for (int dy = -n; dy <= n; ++dy) {
+        for (int dx = -n; dx <= n; ++dx) {
+          sum += image.row(y + dy)[x + dx];
+        }
+      }
+      result.row(y)[x] = static_cast<std::uint8_t>(sum / ((2 * n + 1) * (2 * n + 1)));
+    }
+  }
+  return result;
+}
+
+TEST(Chessboard, RefusesAPartOfALargerBoard) {
+  const Board printed = parseBoard("chessboard:9x6:25mm");
+  const GrayImage image = drawBoard(printed, camera(), boardPose(printed, 0.1, 0.2), 640, 480);
+  for (const char* said : {"chessboard:8x6:25mm", "chessboard:9x5:25mm"}) {
+    const auto found = findBoard(image, parseBoard(said));
+    EXPECT_FALSE(found) << said;
+  }
+}
+
+TEST(Chessboard, SaysThatAPictureIsBlurredOrDark) {
+  const Board board = parseBoard("chessboard:9x6:25mm");
+  const GrayImage sharp = drawBoard(board, camera(), boardPose(board, 0.1, 0.2), 640, 480);
+  const auto blurred = findBoard(smeared(sharp, 10), board);
+  ASSERT_FALSE(blurred);
+  EXPECT_THAT(blurred.reason(), HasSubstr("blurred"));
+  GrayImage dark = sharp;
+  GrayImage white = sharp;
+  for (std::size_t i = 0; i < dark.pixels.size(); ++i) {
+    dark.pixels[i] = static_cast<std::uint8_t>(dark.pixels[i] / 40);
+    white.pixels[i] = static_cast<std::uint8_t>(std::min(255, 5 * dark.pixels[i] + 245));
+  }
+  const auto in_dark = findBoard(dark, board);
+  ASSERT_FALSE(in_dark);
+  EXPECT_THAT(in_dark.reason(), HasSubstr("too dark"));
+  const auto in_white = findBoard(white, board);
+  ASSERT_FALSE(in_white);
+  EXPECT_THAT(in_white.reason(), HasSubstr("overexposed"));
 }
 
 }  // namespace
