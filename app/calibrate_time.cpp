@@ -129,8 +129,11 @@ Watched watchSequence(const TimeArguments& arguments) {
                                            : std::filesystem::path(arguments.rig);
   watched.told = loadRig(watched.rig_file);
   watched.place = "sequence " + arguments.sequence;
-  const TagPlate plate = loadTagPlate(
-      targetFor(arguments, openSequence(arguments.sequence).target_file, "the sequence"));
+  std::filesystem::path target = openSequence(arguments.sequence).target_file;
+  if (target.extension() == ".cao") {
+    target.clear();  // edges, no tags
+  }
+  const TagPlate plate = loadTagPlate(targetFor(arguments, target, "the sequence"));
   Progress progress("reading");
   watched.record = readWiggle(arguments.sequence, watched.told, plate, stepFor(progress));
   return watched;
