@@ -115,7 +115,7 @@ nlohmann::ordered_json serveCell(const CellJob& job) {
   keepMemory();
   const CellConfig cell = networkCell(job.cell);
   const Scenario scenario = loadScenario(scenarioFile(cell, job.scenario));
-  const StereoRig true_rig = disturbedRig(loadRig(cell.rig), job.seed, scenario.calibration);
+  const StereoRig true_rig = disturbedRig(nominalRig(), job.seed, scenario.calibration);
   CellWorld world(worldOptions(job, scenario));
   CellServer server(world, true_rig, serverOptions(job, cell, scenario));
   std::optional<TruthLog> log;

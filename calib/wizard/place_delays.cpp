@@ -58,6 +58,9 @@ class WatchedWiggle {
          now = devices_.arm.waitState().time) {
       step_(0.0, "looking for the plate");
       while (const std::optional<StereoFrame> frame = devices_.camera.grab(0.0)) {
+        if (frame->time < begin) {
+          continue;  // of the rest before, which nobody fetched: of next to nothing
+        }
         const Outcome<HookView> view = watch_.see(*frame);
         ++frames;
         if (view) {

@@ -39,7 +39,7 @@ void openSimulation(const CellConfig& cell, const CellChoice& choice, CellDevice
   Scenario scenario = loadScenario(scenarioFile(cell, choice.scenario));
   scenario.cell.seed = choice.seed;
   devices.scenario = scenario.name;
-  devices.true_rig = disturbedRig(devices.told_rig, choice.seed, scenario.calibration);
+  devices.true_rig = disturbedRig(nominalRig(), choice.seed, scenario.calibration);
   devices.world = std::make_unique<CellWorld>(scenario.cell);
   devices.arm = std::make_unique<SimArm>(*devices.world);
   devices.camera = std::make_unique<SimStereoCamera>(*devices.world, devices.true_rig,

@@ -77,7 +77,7 @@ class Belt {
       : job_(job),
         cell_(cell),
         told_rig_(loadRig(cell.rig)),
-        true_rig_(disturbedRig(told_rig_, job.seed, scenario.calibration)),
+        true_rig_(disturbedRig(nominalRig(), job.seed, scenario.calibration)),
         world_(worldOptions(scenario, job, first, hooks)),
         arm_(makeArm(world_, job)),
         camera_(world_, true_rig_, simCameraOptions(cell, scenario)),
