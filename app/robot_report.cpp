@@ -7,8 +7,9 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-nlohmann::json listOf(const Eigen::Vector3d& v, double unit = 1.0) {
-  return {v.x() / unit, v.y() / unit, v.z() / unit};
+nlohmann::json listOf(const Eigen::VectorXd& v, double unit = 1.0) {
+  const Eigen::VectorXd scaled = v / unit;
+  return std::vector<double>(scaled.begin(), scaled.end());
 }
 
 nlohmann::json quaternionOf(const Pose& pose) {
@@ -111,6 +112,11 @@ nlohmann::json summaryOf(const PlateCalibration& c) {
   json["corner_sigma_px"] = c.corner_sigma_px;
   json["rms_px"] = c.rms_px;
   json["arm_rms_px"] = c.arm_rms_px;
+  if (c.zeros) {
+    json["joint_zeros_deg"] = listOf(c.zeros->zero_rad, kDegree);
+    json["joint_zeros_sigma_deg"] = listOf(c.zeros->sigma_rad, kDegree);
+    json["heldout_with_joint_zeros_mm"] = 1e3 * c.zeros->heldout.translation_m;
+  }
   return json;
 }
 
@@ -170,6 +176,14 @@ void printResult(const PlateCalibration& c) {
         c.corner_sigma_px, c.rms_px, c.arm_rms_px);
   }
   printResult(c.result, c.pairs);
+  if (c.zeros) {
+    std::printf("joint zeros (true minus reported, deg):");
+    for (int j = 0; j < c.zeros->zero_rad.size(); ++j) {
+      std::printf(" %.4f +- %.4f", c.zeros->zero_rad(j) / kDegree, c.zeros->sigma_rad(j) / kDegree);
+    }
+    std::printf("\n  with them put right in the controller, held out %.3f mm instead of %.3f mm\n",
+                1e3 * c.zeros->heldout.translation_m, 1e3 * c.result.heldout.translation_m);
+  }
 }
 
 void printResult(const PointFit& fit, const std::vector<PointPair>& points) {

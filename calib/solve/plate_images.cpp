@@ -1,6 +1,7 @@
 #include "calib/solve/plate_images.h"
 
 #include "calib/solve/pose_table.h"
+#include "camera/csv_table.h"
 #include "camera/image_file.h"
 #include "core/error.h"
 #include "tracking/plate_pose.h"
@@ -72,6 +73,26 @@ void requireSame(const std::string& what, std::size_t found, std::size_t images)
   }
 }
 
+/// Reported joints of all images [rad], where the poses come as a table that has them.
+std::vector<std::optional<JointVector>> readJoints(const PlateImages& images) {
+  std::vector<std::optional<JointVector>> joints(images.left.size());
+  if (images.poses.size() != 1 || images.poses.front().extension() != ".csv") {
+    return joints;
+  }
+  const CsvTable table(images.poses.front());
+  if (!table.has("j1_rad")) {
+    return joints;
+  }
+  for (std::size_t row = 0; row < joints.size(); ++row) {
+    JointVector q;
+    for (int j = 0; j < q.size(); ++j) {
+      q(j) = table.number(row, table.column("j" + std::to_string(j + 1) + "_rad"));
+    }
+    joints[row] = q;
+  }
+  return joints;
+}
+
 }  // namespace
 
 std::vector<Pose> readFlangePoses(const PlateImages& images) {
@@ -98,6 +119,7 @@ FoundPlates findPlates(const PlateImages& images, const StereoRig& rig, TagPlate
     requireSame("--right: the images", images.right.size(), images.left.size());
   }
   const std::vector<Pose> poses = readFlangePoses(images);
+  const auto joints = readJoints(images);
   plate.oMk = Pose::Identity();
   TagDetector detector(plate.family, 1, true);
   FoundPlates found;
@@ -112,7 +134,7 @@ FoundPlates findPlates(const PlateImages& images, const StereoRig& rig, TagPlate
     }
     const Outcome<HookView> seen = viewOf(std::move(cameras));
     if (seen) {
-      found.views.push_back({name, poses[i], *seen});
+      found.views.push_back({name, poses[i], *seen, joints[i]});
     } else {
       found.blind.push_back({name, i, seen.reason()});
     }

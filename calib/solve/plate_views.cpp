@@ -59,6 +59,31 @@ std::vector<PosePair> pairsOf(std::vector<PlateView>& views, double sigma_px) {
   return pairs;
 }
 
+/// With few views every zero error would explain noise.
+constexpr std::size_t kFewestForZeros = 12;
+constexpr double kOtherArm = 1e-3;  // from the kinematics of an RX60 [m]
+
+std::optional<JointZeros> zerosOf(const std::vector<PlateView>& views,
+                                  const PlateCalibration& calibration) {
+  const HandEyeResult& result = calibration.result;
+  std::vector<JointVector> joints;
+  for (const PlateView& view : views) {
+    // Another arm's joints would be nonsense here.
+    if (view.joints &&
+        (rx60::forward(rx60::rx60(), *view.joints).translation() - view.fMe.translation()).norm() <
+            kOtherArm) {
+      joints.push_back(*view.joints);
+    }
+  }
+  const auto used =
+      static_cast<std::size_t>(std::count(result.used.begin(), result.used.end(), true));
+  if (joints.size() != calibration.pairs.size() || used < kFewestForZeros ||
+      result.verdict.grade == Grade::kPoor) {
+    return std::nullopt;
+  }
+  return fitJointZeros(calibration.pairs, joints, rx60::rx60(), result);
+}
+
 }  // namespace
 
 PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetup setup,
@@ -79,6 +104,7 @@ PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetu
   calibration.rms_px = bundle.rms_px;
   calibration.arm_rms_px = bundle.arm_rms_px;
   judgeHandEye(calibration.pairs, result);
+  calibration.zeros = zerosOf(kept, calibration);
   return calibration;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "calib/solve/hand_eye.h"
+#include "calib/solve/joint_zeros.h"
 #include "core/hook_values.h"
 
 namespace ringhook {
@@ -25,6 +26,7 @@ struct PlateView {
   std::string name;  ///< for messages
   Pose fMe;          ///< flange in the robot reference
   HookView seen;
+  std::optional<JointVector> joints{};  ///< reported [rad], of which fMe is an RX60's kinematics
 };
 
 struct PlateCalibration {
@@ -33,6 +35,7 @@ struct PlateCalibration {
   std::vector<RejectedPair> blind;  ///< views that tell no pose; index among the views given
   double corner_sigma_px = 0.0;     ///< s_px, per axis
   double rms_px = 0.0;              ///< of the corners under the result, arm errors d_i taken out
+  std::optional<JointZeros> zeros;  ///< where all views have joints and the result may be used
   double arm_rms_px = 0.0;  ///< likewise with all d_i = 0: the arm's errors as the camera sees
 };
 

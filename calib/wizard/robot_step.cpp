@@ -209,6 +209,15 @@ void robotStep(WizardContext& context) {
   }
   console.say(figures(result.result) + "\n  verdict: " + toString(result.result.verdict.grade) +
               ": " + result.result.verdict.sentence);
+  if (result.zeros) {
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "  with the arm's joint zeros put right in its controller: held-out %.3f mm\n"
+                  "  (which zeros: ringhook calibrate robot with the pictures in %s)",
+                  1e3 * result.zeros->heldout.translation_m,
+                  context.session.file("arm").string().c_str());
+    console.say(text);
+  }
   context.session.report("robot", json(result.result));
   if (result.result.verdict.grade == Grade::kPoor) {
     throw Error("the cameras' place in the robot's frame is not known well enough to go on");
