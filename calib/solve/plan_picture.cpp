@@ -145,8 +145,8 @@ std::string sight(const Panel& p, const Pose& mMc, const CameraModel& camera, do
     const Eigen::Vector3d end = at + d * (reach_m / d.z());
     svg += fmt::format("L{:.1f} {:.1f}", p.u(end.x()), p.v(end.z()));
   }
-  return svg + fmt::format("Z\"/><circle fill=\"#1c2733\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", p.u(at.x()),
-                           p.v(at.z()));
+  return svg + fmt::format("Z\"/><circle fill=\"#1c2733\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n",
+                           p.u(at.x()), p.v(at.z()));
 }
 
 std::string abovePanel(const PlanView& view, const PlanMap& map) {

@@ -26,7 +26,8 @@ Board workspaceBoard();
 StereoRig trueCellRig(std::uint64_t seed);
 
 /// Renders `count` pairs of full images with sensor noise, the board tilted up to 40 degrees in all
-/// directions at seeded places 0.95 to 1.25 m away, clear of arm and hooks; each is handed to `take` as it comes.
+/// directions at seeded places 0.95 to 1.25 m away, clear of arm and hooks; each is handed to
+/// `take` as it comes.
 void renderViews(int count, std::uint64_t seed,
                  const std::function<void(int, const StereoFrame&)>& take);
 
