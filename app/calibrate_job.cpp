@@ -3,20 +3,7 @@
 #include <array>
 #include <ctime>
 
-#include "app/interrupt.h"
-#include "core/error.h"
-
 namespace ringhook {
-
-StepHook hookFor(Progress& progress) {
-  return [&progress](double fraction, const std::string& note) {
-    if (interruptRequested()) {
-      progress.clear();
-      throw Interrupted("stopped by the operator, nothing was written");
-    }
-    progress.show(fraction, note);
-  };
-}
 
 std::string utcDate() {
   const std::time_t now = std::time(nullptr);

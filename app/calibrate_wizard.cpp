@@ -74,7 +74,8 @@ void addCalibrateWizard(CLI::App& calibrate) {
                     "stored images instead of the cell's cameras: board/ and arm/, each with left/ "
                     "and right/, arm/ with robot.csv; optional check/");
   wizard.add_option("--board", arguments->board, "the board, as for calibrate stereo");
-  wizard.add_option("--seed", arguments->seed, "of a simulated cell (1)");
+  wizard.add_option("--seed", arguments->seed, "of a simulated cell (1)")
+      ->check(CLI::NonNegativeNumber);
   wizard.add_option("--rigs", arguments->rigs, "where the accepted rig is kept with its evidence")
       ->type_name("DIR");
   wizard.add_flag("--no-window", arguments->no_window, "no window, even with a display");

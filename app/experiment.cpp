@@ -53,8 +53,9 @@ void runPrediction(const ExperimentFlags& flags) {
     counts.seeds = counts.stops = counts.consistency = flags.seeds;
   }
   Progress progress("predicting");
+  const auto hook = hookFor(progress);
   const PredictionExperiment experiment =
-      runPredictionExperiment(counts, [&](double done) { progress.show(done); });
+      runPredictionExperiment(counts, [&](double done) { hook(done, ""); });
   const fs::path folder =
       flags.out.empty() ? fs::path("out/experiment-prediction") : fs::path(flags.out);
   writePredictionOutputs(folder, experiment);
@@ -65,7 +66,14 @@ void runPrediction(const ExperimentFlags& flags) {
 
 void runTracking(const ExperimentFlags& flags) {
   JsonFile json(flags.json);
-  const TrackingExperiment experiment = runTrackingExperiment();
+  TrackingExperiment experiment;
+  {
+    Progress progress("looking at 21 steps");
+    const auto hook = hookFor(progress);
+    TrackingOptions options;
+    options.step = [&](double done) { hook(done, ""); };
+    experiment = runTrackingExperiment(options);
+  }
   const fs::path folder =
       flags.out.empty() ? fs::path("out/experiment-tracking") : fs::path(flags.out);
   writeTrackingOutputs(folder, experiment);

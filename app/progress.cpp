@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/interrupt.h"
+#include "core/error.h"
+
 namespace ringhook {
 namespace {
 
@@ -52,6 +55,16 @@ void Progress::clear() {
     std::fflush(stderr);
     line_open_ = false;
   }
+}
+
+std::function<void(double, const std::string&)> hookFor(Progress& progress) {
+  return [&progress](double fraction, const std::string& note) {
+    if (interruptRequested()) {
+      progress.clear();
+      throw Interrupted("stopped by the operator, nothing was written");
+    }
+    progress.show(fraction, note);
+  };
 }
 
 }  // namespace ringhook

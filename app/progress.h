@@ -5,6 +5,7 @@
 /// terminal; a quiet line every tenth of the work in a pipe.
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace ringhook {
@@ -30,5 +31,9 @@ class Progress {
   bool line_open_ = false;
   int last_tenth_ = 0;
 };
+
+/// A hook that shows progress (0 to 1, and a short state) and, between steps, throws Interrupted
+/// when the operator asks for it. `progress` must outlive the hook.
+std::function<void(double, const std::string&)> hookFor(Progress& progress);
 
 }  // namespace ringhook

@@ -41,10 +41,6 @@ CalibrationPlace& WizardContext::place(const std::string& part) {
       place_ = openStoredPlace(answers.images / part);
     }
   } else if (!place_ && cell.devices.kind == DeviceKind::kSimulated) {
-    if (board.kind != BoardKind::kChessboard) {
-      throw InputError("--board " + answers.board +
-                       ": in the simulated cell a chessboard is expected");
-    }
     SimulatedPlaceOptions options;
     options.seed = answers.seed;
     options.board = {board.columns, board.rows, board.pitch_m};

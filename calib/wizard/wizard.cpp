@@ -43,8 +43,13 @@ WizardAnswers askedAnswers(const WizardOptions& options, Console& console) {
                                       "side of a square, as measured.",
                                       kUsualBoard, boardFault);
   answers.seed = options.seed.value_or(1);
-  (void)parseBoard(answers.board);
-  (void)loadCellConfig(answers.cell);
+  const Board board = parseBoard(answers.board);
+  const CellConfig cell = loadCellConfig(answers.cell);
+  if (answers.images.empty() && cell.devices.kind == DeviceKind::kSimulated &&
+      board.kind != BoardKind::kChessboard) {
+    throw InputError("--board " + answers.board +
+                     ": in the simulated cell a chessboard is expected");
+  }
   if (!answers.images.empty() && !isFolder(answers.images / "board")) {
     throw InputError(answers.images.string() +
                      ": expected a folder with board/left and board/right");

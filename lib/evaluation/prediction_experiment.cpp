@@ -63,6 +63,21 @@ void addPointRun(MotionModel& model, Trial trial, Sums& sums) {
   ++sums.count;
 }
 
+/// Tells how far the whole is, at every run, so that it can be stopped there.
+class Pace {
+ public:
+  explicit Pace(const std::function<void(double)>& progress) : progress_(progress) {}
+  void run() const { progress_(at_); }
+  void reach(double fraction) {
+    at_ = fraction;
+    run();
+  }
+
+ private:
+  const std::function<void(double)>& progress_;
+  double at_ = 0.0;
+};
+
 std::vector<Trial> makeTrials(const TrialOptions& options, int seeds) {
   std::vector<Trial> trials;
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -71,21 +86,23 @@ std::vector<Trial> makeTrials(const TrialOptions& options, int seeds) {
   return trials;
 }
 
-Sums pointRuns(const Maker& make, double density, std::span<const Trial> trials) {
+Sums pointRuns(const Maker& make, double density, std::span<const Trial> trials, const Pace& pace) {
   Sums sums;
   for (const Trial& trial : trials) {
+    pace.run();
     addPointRun(*make(density), trial, sums);
   }
   return sums;
 }
 
 /// The density of a grid with which a model is best at the longest horizon: to a peer's favour.
-double bestDensity(const Maker& make, std::span<const Trial> trials) {
+double bestDensity(const Maker& make, std::span<const Trial> trials, const Pace& pace) {
   double best = 1.0;
   double least = std::numeric_limits<double>::infinity();
   for (int power = -9; power <= 3; ++power) {
     const double density = std::pow(10.0, power);
-    const Sums sums = pointRuns(make, density, trials.first(std::min(kTuningSeeds, trials.size())));
+    const Sums sums =
+        pointRuns(make, density, trials.first(std::min(kTuningSeeds, trials.size())), pace);
     if (sums.squares.back() < least) {
       least = sums.squares.back();
       best = density;
@@ -127,7 +144,7 @@ double boundVariance(Trial trial) {
   return (H * P * H.transpose()).trace() / 3.0;
 }
 
-void addPointRows(double swing_deg, int seeds, std::vector<PredictionRow>& rows) {
+void addPointRows(double swing_deg, int seeds, const Pace& pace, std::vector<PredictionRow>& rows) {
   TrialOptions options;
   options.swing_deg = swing_deg;
   const std::vector<Trial> trials = makeTrials(options, seeds);
@@ -151,11 +168,12 @@ void addPointRows(double swing_deg, int seeds, std::vector<PredictionRow>& rows)
     PredictionRow row;
     row.key = "points_" + degrees + "_deg_" + name;
     row.name = "points, " + degrees + " deg, unknown: " + name;
-    const double density = make == &ours ? 0.0 : bestDensity(*make, trials);
-    pointRuns(*make, density, trials).fill(row);
+    const double density = make == &ours ? 0.0 : bestDensity(*make, trials, pace);
+    pointRuns(*make, density, trials, pace).fill(row);
     if (make == &ours) {
       double bound = 0.0;
       for (const Trial& trial : trials) {
+        pace.run();
         bound += boundVariance(trial);
       }
       row.bound_mm = 1e3 * std::sqrt(bound / seeds);
@@ -179,11 +197,12 @@ void addPosePrediction(const HookFilter& filter, const Trial& trial, double now_
   ++sums.count;
 }
 
-void addPoseRow(double swing_deg, int seeds, std::vector<PredictionRow>& rows) {
+void addPoseRow(double swing_deg, int seeds, const Pace& pace, std::vector<PredictionRow>& rows) {
   TrialOptions options;
   options.swing_deg = swing_deg;
   Sums sums;
   for (int seed = 1; seed <= seeds; ++seed) {
+    pace.run();
     Trial trial = makeTrial(options, static_cast<unsigned>(seed));
     HookFilter filter(trialHookOptions());
     followTrial(filter, trial, 0.0, kSeen);
@@ -197,12 +216,13 @@ void addPoseRow(double swing_deg, int seeds, std::vector<PredictionRow>& rows) {
 
 /// A hook seen for a second: the first of its kind, or after another one.
 void addSecondHookRow(bool after_another, double length_spread, const char* key, const char* name,
-                      int seeds, std::vector<PredictionRow>& rows) {
+                      int seeds, const Pace& pace, std::vector<PredictionRow>& rows) {
   Sums sums;
   TrialOptions options;
   options.length_spread = length_spread;
   options.duration_s = 6.0;
   for (int seed = 1; seed <= seeds; ++seed) {
+    pace.run();
     HookFilter filter(trialHookOptions());
     if (after_another) {
       Trial first = makeTrial(options, static_cast<unsigned>(seed) + 100000U);
@@ -223,21 +243,22 @@ void addSecondHookRow(bool after_another, double length_spread, const char* key,
 PredictionExperiment runPredictionExperiment(const PredictionCounts& counts,
                                              const std::function<void(double)>& progress) {
   PredictionExperiment experiment;
+  Pace pace(progress);
   for (const double swing_deg : {5.0, 15.0}) {
-    addPointRows(swing_deg, counts.seeds, experiment.rows);
-    addPoseRow(swing_deg, counts.seeds, experiment.rows);
-    progress(swing_deg < 10.0 ? 0.15 : 0.3);
+    addPointRows(swing_deg, counts.seeds, pace, experiment.rows);
+    addPoseRow(swing_deg, counts.seeds, pace, experiment.rows);
+    pace.reach(swing_deg < 10.0 ? 0.15 : 0.3);
   }
-  addSecondHookRow(false, 0.02, "first_hook_1_s", "poses, first hook, 1 s seen", counts.seeds,
+  addSecondHookRow(false, 0.02, "first_hook_1_s", "poses, first hook, 1 s seen", counts.seeds, pace,
                    experiment.rows);
   addSecondHookRow(true, 0.0, "second_hook_1_s", "poses, second hook of the same length, 1 s seen",
-                   counts.seeds, experiment.rows);
+                   counts.seeds, pace, experiment.rows);
   addSecondHookRow(true, 0.02, "second_hook_spread_1_s",
-                   "poses, second hook, lengths within 2 %, 1 s seen", counts.seeds,
+                   "poses, second hook, lengths within 2 %, 1 s seen", counts.seeds, pace,
                    experiment.rows);
-  experiment.consistency = consistencyRuns(counts.consistency);
-  experiment.smoother = smootherRuns(std::min(counts.seeds, 50));
-  progress(0.5);
+  experiment.consistency = consistencyRuns(counts.consistency, [&] { pace.run(); });
+  experiment.smoother = smootherRuns(std::min(counts.seeds, 50), [&] { pace.run(); });
+  pace.reach(0.5);
   experiment.stop = stopRuns(true, counts.stops, [&](double done) { progress(0.5 + 0.25 * done); });
   experiment.stop_points =
       stopRuns(false, counts.stops, [&](double done) { progress(0.75 + 0.25 * done); });

@@ -107,13 +107,14 @@ StopResult stopRuns(bool poses, int seeds, const std::function<void(double)>& pr
   return result;
 }
 
-ConsistencyResult consistencyRuns(int seeds) {
+ConsistencyResult consistencyRuns(int seeds, const std::function<void()>& step) {
   constexpr double kFrom = 1.5;
   constexpr double kUntil = 5.0;
   TrialOptions options;
   options.duration_s = kUntil + 0.1;
   ConsistencyResult result;
   for (int seed = 1; seed <= seeds; ++seed) {
+    step();
     Trial trial = makeTrial(options, static_cast<unsigned>(seed));
     HookFilter filter(trialHookOptions());
     followTrial(filter, trial, 0.0, kFrom);
@@ -133,7 +134,7 @@ ConsistencyResult consistencyRuns(int seeds) {
   return result;
 }
 
-SmootherResult smootherRuns(int seeds) {
+SmootherResult smootherRuns(int seeds, const std::function<void()>& step) {
   constexpr double kFrom = 1.0;
   constexpr double kUntil = 3.0;
   constexpr double kEnd = 4.0;
@@ -143,6 +144,7 @@ SmootherResult smootherRuns(int seeds) {
   SmootherResult result;
   int count = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
+    step();
     Trial trial = makeTrial(options, static_cast<unsigned>(seed));
     HookFilter filter(hook);
     std::vector<SwingMeasurement> seen;

@@ -13,10 +13,10 @@ namespace ringhook {
 /// The belt stops after 4 s. \param poses seen, else points of which nothing is known.
 StopResult stopRuns(bool poses, int seeds, const std::function<void(double)>& progress);
 
-/// Mean NIS of 3.5 s of poses, run by run, against its chi-square band.
-ConsistencyResult consistencyRuns(int seeds);
+/// Mean NIS of 3.5 s of poses, run by run, against its chi-square band. `step` begins every run.
+ConsistencyResult consistencyRuns(int seeds, const std::function<void()>& step);
 
-/// Four seconds of poses; judged between the first second and the third.
-SmootherResult smootherRuns(int seeds);
+/// Four seconds of poses; judged between the first second and the third. `step` as above.
+SmootherResult smootherRuns(int seeds, const std::function<void()>& step);
 
 }  // namespace ringhook

@@ -290,6 +290,9 @@ TrackingErrors errorsOf(const std::vector<TrackingStep>& steps) {
 TrackingExperiment runTrackingExperiment(const TrackingOptions& options) {
   TrackingExperiment experiment;
   for (int i = 0; i < options.sequences; ++i) {
+    if (options.step) {
+      options.step(static_cast<double>(i) / options.sequences);
+    }
     experiment.sequences.push_back(
         Passage(options.first_seed + static_cast<std::uint64_t>(i)).run());
   }

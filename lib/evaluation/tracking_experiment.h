@@ -23,6 +23,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -94,7 +95,8 @@ struct TrackingExperiment {
 
 struct TrackingOptions {
   std::uint64_t first_seed = 1;
-  int sequences = 5;  ///< >= 1
+  int sequences = 5;                   ///< >= 1
+  std::function<void(double)> step{};  ///< told the part done before each; may throw to stop
 };
 
 /// Throws Error if a pair shows no hook, DeviceError without OpenGL.
