@@ -28,16 +28,23 @@ using Maker = std::function<std::unique_ptr<MotionModel>(double density)>;
 struct Sums {
   std::array<double, 3> squares{};
   double said = 0.0;
+  double nees = 0.0;
   int count = 0;
 
   void add(std::size_t horizon, const Eigen::Vector3d& error) {
     squares[horizon] += error.squaredNorm() / 3.0;
+  }
+  /// At the last horizon. \param covariance of the error, in the same axes [m^2].
+  void judge(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+    said += covariance.trace() / 3.0;
+    nees += error.dot(covariance.llt().solve(error)) / 3.0;
   }
   void fill(PredictionRow& row) const {
     for (std::size_t i = 0; i < squares.size(); ++i) {
       row.rms_mm[i] = 1e3 * std::sqrt(squares[i] / count);
     }
     row.said_mm = 1e3 * std::sqrt(said / count);
+    row.nees = nees / count;
     row.seeds = count;
   }
 };
@@ -57,7 +64,7 @@ void addPointRun(MotionModel& model, Trial trial, Sums& sums) {
         belief ? Eigen::Vector3d(belief->mean) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     sums.add(h, mean - trial.point(then));
     if (belief && h + 1 == kPredictionHorizons.size()) {
-      sums.said += belief->covariance.trace() / 3.0;
+      sums.judge(mean - trial.point(then), belief->covariance);
     }
   }
   ++sums.count;
@@ -191,7 +198,9 @@ void addPosePrediction(const HookFilter& filter, const Trial& trial, double now_
     sums.add(h, hook ? Eigen::Vector3d(hook->fMo.translation() - trial.point(then))
                      : Eigen::Vector3d(trial.point(then)));
     if (hook && h + 1 == kPredictionHorizons.size()) {
-      sums.said += hook->covariance.topLeftCorner<3, 3>().trace() / 3.0;
+      // The covariance is given in the hook's axes.
+      sums.judge(hook->fMo.linear().transpose() * (hook->fMo.translation() - trial.point(then)),
+                 hook->covariance.topLeftCorner<3, 3>());
     }
   }
   ++sums.count;

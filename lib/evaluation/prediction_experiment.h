@@ -26,6 +26,7 @@ struct PredictionRow {
   std::string name;                ///< what was seen and by whom it was predicted
   std::array<double, 3> rms_mm{};  ///< per coordinate, at the horizons
   double said_mm = 0.0;            ///< what the filter itself said at the last horizon, RMS
+  double nees = 0.0;               ///< mean, per degree of freedom, at the last horizon
   double bound_mm = 0.0;           ///< Cramer-Rao at the last horizon; 0: not computed
   int seeds = 0;
 };
@@ -47,6 +48,10 @@ struct ConsistencyResult {
   int seeds = 0;
   int inside = 0;         ///< runs whose mean NIS lies in its 95 % band
   double nis_mean = 0.0;  ///< per degree of freedom
+  /// Mean normalised error of the estimated pose at each run's end, squared (NEES), per degree of
+  /// freedom; 1 if the filter's covariance is what it errs by.
+  double nees_mean = 0.0;
+  std::array<double, 2> nees_band{};  ///< 95 % of consistent filters give a mean in between
 };
 
 /// Where the hook was, judged then and afterwards: RMS per coordinate of o [mm].

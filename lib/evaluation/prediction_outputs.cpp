@@ -18,7 +18,7 @@ std::string fixed(double value, int digits = 3) {
 
 const std::vector<std::string>& head() {
   static const std::vector<std::string> names{
-      "RMS per coordinate [mm]", "33 ms", "100 ms", "300 ms", "says", "bound", "seeds"};
+      "RMS per coordinate [mm]", "33 ms", "100 ms", "300 ms", "says", "NEES", "bound", "seeds"};
   return names;
 }
 
@@ -28,15 +28,16 @@ std::vector<std::string> cells(const PredictionRow& row) {
           fixed(row.rms_mm[1]),
           fixed(row.rms_mm[2]),
           fixed(row.said_mm),
+          fixed(row.nees, 2),
           row.bound_mm > 0.0 ? fixed(row.bound_mm) : "",
           std::to_string(row.seeds)};
 }
 
 std::string tableLine(const std::vector<std::string>& cells) {
   char text[200];
-  std::snprintf(text, sizeof(text), "%-54s %8s %8s %8s %8s %8s %6s\n", cells[0].c_str(),
+  std::snprintf(text, sizeof(text), "%-54s %8s %8s %8s %8s %8s %8s %6s\n", cells[0].c_str(),
                 cells[1].c_str(), cells[2].c_str(), cells[3].c_str(), cells[4].c_str(),
-                cells[5].c_str(), cells[6].c_str());
+                cells[5].c_str(), cells[6].c_str(), cells[7].c_str());
   return text;
 }
 
@@ -58,7 +59,10 @@ std::vector<std::pair<std::string, std::string>> facts(const PredictionExperimen
                                     share(experiment.stop.noticed, experiment.stop.seeds)},
           {"belt stops, points, all unknown", stop(experiment.stop_points)},
           {"consistency, poses", "mean NIS inside its 95 % band in " + share(c.inside, c.seeds) +
-                                     " runs; mean " + fixed(c.nis_mean) + " per degree"},
+                                     " runs; mean " + fixed(c.nis_mean) +
+                                     " per degree; mean NEES of the pose " + fixed(c.nees_mean) +
+                                     " per degree (" + fixed(c.nees_band[0]) + " to " +
+                                     fixed(c.nees_band[1]) + " if consistent)"},
           {"where it was, poses",
            "by the filter at the time " + fixed(experiment.smoother.filter_mm) +
                " mm, by the smoother afterwards " + fixed(experiment.smoother.smoother_mm) +
@@ -123,11 +127,10 @@ std::string predictionJson(const PredictionExperiment& experiment) {
   nlohmann::ordered_json json;
   json["simulated"] = true;
   for (const PredictionRow& row : experiment.rows) {
-    nlohmann::ordered_json one{{"rms_33_ms_mm", row.rms_mm[0]},
-                               {"rms_100_ms_mm", row.rms_mm[1]},
-                               {"rms_300_ms_mm", row.rms_mm[2]},
-                               {"said_300_ms_mm", row.said_mm},
-                               {"seeds", row.seeds}};
+    nlohmann::ordered_json one{
+        {"rms_33_ms_mm", row.rms_mm[0]},      {"rms_100_ms_mm", row.rms_mm[1]},
+        {"rms_300_ms_mm", row.rms_mm[2]},     {"said_300_ms_mm", row.said_mm},
+        {"nees_300_ms_per_degree", row.nees}, {"seeds", row.seeds}};
     if (row.bound_mm > 0.0) {
       one["cramer_rao_300_ms_mm"] = row.bound_mm;
     }
@@ -137,7 +140,9 @@ std::string predictionJson(const PredictionExperiment& experiment) {
   json["belt_stop_points"] = stopJson(experiment.stop_points);
   json["consistency"] = {{"seeds", experiment.consistency.seeds},
                          {"nis_inside_95", experiment.consistency.inside},
-                         {"nis_mean_per_degree", experiment.consistency.nis_mean}};
+                         {"nis_mean_per_degree", experiment.consistency.nis_mean},
+                         {"nees_mean_per_degree", experiment.consistency.nees_mean},
+                         {"nees_band_95", experiment.consistency.nees_band}};
   json["smoother"] = {{"seeds", experiment.smoother.seeds},
                       {"filter_rms_mm", experiment.smoother.filter_mm},
                       {"smoother_rms_mm", experiment.smoother.smoother_mm}};

@@ -128,9 +128,15 @@ ConsistencyResult consistencyRuns(int seeds, const std::function<void()>& step) 
     result.inside +=
         sum > chiSquareQuantile(0.025, degrees) && sum < chiSquareQuantile(0.975, degrees);
     result.nis_mean += sum / degrees;
+    const HookEstimate end = filter.predict(Time::fromSeconds(kUntil)).value();
+    const Twist error = logSe3(end.fMo.inverse() * trial.pose(kUntil));
+    result.nees_mean += error.dot(end.covariance.llt().solve(error)) / 6.0;
     ++result.seeds;
   }
   result.nis_mean /= result.seeds;
+  result.nees_mean /= result.seeds;
+  const double all = 6.0 * result.seeds;
+  result.nees_band = {chiSquareQuantile(0.025, all) / all, chiSquareQuantile(0.975, all) / all};
   return result;
 }
 

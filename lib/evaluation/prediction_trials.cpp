@@ -33,9 +33,9 @@ HookDraw drawHook(const TrialOptions& options, std::mt19937& random) {
 
 }  // namespace
 
-Eigen::Vector3d Trial::point(double time_s) const {
-  return sampleAt(truth, time_s).fMo.translation();
-}
+Eigen::Vector3d Trial::point(double time_s) const { return pose(time_s).translation(); }
+
+const Pose& Trial::pose(double time_s) const { return sampleAt(truth, time_s).fMo; }
 
 Eigen::Vector3d Trial::seenPoint(double time_s) {
   std::normal_distribution<double> noise(0.0, kTrialPositionSigma);

@@ -32,6 +32,8 @@ struct Trial {
 
   /// o at `time_s` [m].
   [[nodiscard]] Eigen::Vector3d point(double time_s) const;
+  /// The hook at `time_s`, a whole millisecond.
+  [[nodiscard]] const Pose& pose(double time_s) const;
   /// o as seen, with noise [m]; each call draws anew.
   Eigen::Vector3d seenPoint(double time_s);
   /// The pose as seen from a camera that stands at f.

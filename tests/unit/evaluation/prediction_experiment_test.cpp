@@ -11,11 +11,19 @@
 namespace ringhook {
 namespace {
 
-double farRms(const PredictionExperiment& experiment, const std::string& key) {
+PredictionRow rowOf(const PredictionExperiment& experiment, const std::string& key) {
   const auto& rows = experiment.rows;
   const auto row =
       std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.key == key; });
-  return row == rows.end() ? -1.0 : row->rms_mm.back();
+  return row == rows.end() ? PredictionRow{"", "", {-1.0, -1.0, -1.0}} : *row;
+}
+
+double farRms(const PredictionExperiment& experiment, const std::string& key) {
+  return rowOf(experiment, key).rms_mm.back();
+}
+
+double farNees(const PredictionExperiment& experiment, const std::string& key) {
+  return rowOf(experiment, key).nees;
 }
 
 // One run for all: it takes some ten seconds.
@@ -27,6 +35,11 @@ TEST(PredictionExperiment, FindsTheSwingFilterWithinItsGoalsAndFarAheadOfItsPeer
     EXPECT_LT(10.0 * ours, farRms(experiment, "points_" + swing + "_deg_constant-acceleration"));
     EXPECT_LT(ours, farRms(experiment, "points_" + swing + "_deg_report-pendulum"));
   }
+  // 1 per degree of freedom is honest; the report's filter does not know how wrong it is.
+  EXPECT_LT(farNees(experiment, "points_5_deg_spherical-pendulum"), 4.0);
+  EXPECT_GT(farNees(experiment, "points_5_deg_report-pendulum"), 50.0);
+  EXPECT_GT(experiment.consistency.nees_mean, 0.2);
+  EXPECT_LT(experiment.consistency.nees_mean, 3.0);
   EXPECT_LT(farRms(experiment, "poses_5_deg"), 0.2);
   EXPECT_LT(farRms(experiment, "poses_15_deg"), 0.35);
   for (const StopResult* stop : {&experiment.stop, &experiment.stop_points}) {
