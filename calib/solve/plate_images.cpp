@@ -83,12 +83,9 @@ std::vector<std::optional<JointVector>> readJoints(const PlateImages& images) {
   if (!table.has("j1_rad")) {
     return joints;
   }
+  const JointColumns columns(table);
   for (std::size_t row = 0; row < joints.size(); ++row) {
-    JointVector q;
-    for (int j = 0; j < q.size(); ++j) {
-      q(j) = table.number(row, table.column("j" + std::to_string(j + 1) + "_rad"));
-    }
-    joints[row] = q;
+    joints[row] = columns.read(row);
   }
   return joints;
 }

@@ -140,6 +140,31 @@ Pose readVispPose(const std::filesystem::path& file) {
   return checkedVispPose(file, values, lines);
 }
 
+JointColumns::JointColumns(const CsvTable& table) : table_(table) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    columns_.at(i) = table.column("j" + std::to_string(i + 1) + "_rad");
+  }
+}
+
+JointVector JointColumns::read(std::size_t row) const {
+  JointVector joints;
+  for (int i = 0; i < joints.size(); ++i) {
+    joints(i) = table_.number(row, columns_.at(static_cast<std::size_t>(i)));
+  }
+  return joints;
+}
+
+std::vector<ArmRow> readArmRows(const std::filesystem::path& file) {
+  const CsvTable table(file);
+  const JointColumns joints(table);
+  const PoseColumns poses(table, "");
+  std::vector<ArmRow> rows;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    rows.push_back({joints.read(row), poses.read(row)});
+  }
+  return rows;
+}
+
 std::vector<Pose> readPoseTable(const std::filesystem::path& file) {
   const CsvTable table(file);
   const PoseColumns columns(table, "");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "camera/csv_table.h"
+#include "core/joints.h"
 #include "core/pose.h"
 
 namespace ringhook {
@@ -48,6 +49,28 @@ class PoseColumns {
   PointColumns position_;
   std::array<std::size_t, 4> rotation_;
 };
+
+/// Six columns j1_rad .. j6_rad.
+class JointColumns {
+ public:
+  /// Throws InputError if a column is missing. The table must outlive the columns.
+  explicit JointColumns(const CsvTable& table);
+  /// [rad]. Throws InputError for a value that is no finite number.
+  [[nodiscard]] JointVector read(std::size_t row) const;
+
+ private:
+  const CsvTable& table_;
+  std::array<std::size_t, 6> columns_{};
+};
+
+/// Where an arm stood, a row of robot.csv; its time is not read.
+struct ArmRow {
+  JointVector joints = JointVector::Zero();  ///< reported [rad]
+  Pose fMe = Pose::Identity();               ///< flange in the robot reference
+};
+
+/// Every row of robot.csv (doc/formats.md). Throws InputError as the columns do.
+std::vector<ArmRow> readArmRows(const std::filesystem::path& file);
 
 /// ViSP's pose file (vpPoseVector): `rows: 6`, `cols: 1`, `data:` with x, y, z [m] and the rotation
 /// vector [rad], one value a line. Throws InputError naming file and line.

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
+#include "calib/solve/pose_table.h"
 #include "calib/wizard/place.h"
-#include "camera/csv_table.h"
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence.h"
@@ -56,29 +55,6 @@ std::vector<Shot> shotsOfSequence(const fs::path& folder) {
   return shots;
 }
 
-/// robot.csv of loose images: the columns of doc/formats.md, a row for every pair; time is not
-/// read.
-std::vector<StampedArm> looseArm(const fs::path& file) {
-  const CsvTable table(file);
-  constexpr std::array kColumns = {"j1_rad", "j2_rad", "j3_rad", "j4_rad", "j5_rad", "j6_rad", "x",
-                                   "y",      "z",      "qx",     "qy",     "qz",     "qw"};
-  std::vector<StampedArm> rows(table.rows());
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::array<double, kColumns.size()> v{};
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      v[i] = table.number(row, table.column(kColumns[i]));
-    }
-    const Eigen::Quaterniond rotation(v[12], v[9], v[10], v[11]);
-    if (std::abs(rotation.norm() - 1.0) > 0.01) {
-      throw InputError(table.where(row, table.column("qw")) +
-                       ": expected a quaternion qx,qy,qz,qw of norm 1");
-    }
-    rows[row].position = Eigen::Map<const JointVector>(v.data());
-    rows[row].fMe = makePose({v[6], v[7], v[8]}, rotation);
-  }
-  return rows;
-}
-
 std::vector<Shot> looseShots(const fs::path& folder) {
   const auto left = filesMatching((folder / "left" / "*").string());
   const auto right = filesMatching((folder / "right" / "*").string());
@@ -87,9 +63,9 @@ std::vector<Shot> looseShots(const fs::path& folder) {
                      "images each; found " + std::to_string(left.size()) + " and " +
                      std::to_string(right.size()));
   }
-  std::vector<StampedArm> arm;
+  std::vector<ArmRow> arm;
   if (isFile(folder / "robot.csv")) {
-    arm = looseArm(folder / "robot.csv");
+    arm = readArmRows(folder / "robot.csv");
     if (arm.size() != left.size()) {
       throw InputError((folder / "robot.csv").string() + ": expected a row for each of the " +
                        std::to_string(left.size()) + " pairs, found " + std::to_string(arm.size()));
@@ -102,7 +78,7 @@ std::vector<Shot> looseShots(const fs::path& folder) {
     shots[i].files.left = left[i];
     shots[i].files.right = right[i];
     if (!arm.empty()) {
-      shots[i].arm = arm[i];
+      shots[i].arm = {shots[i].files.time, arm[i].joints, arm[i].fMe};
     }
   }
   return shots;

@@ -141,7 +141,7 @@ class ArmPairs {
           " picture does not show the plate");
       return false;
     }
-    ShotArm arm;
+    ArmRow arm;
     arm.fMe = fMe;
     if (const auto state = place_.armState()) {
       arm.joints = state->position;

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "camera/csv_table.h"
 #include "camera/image_file.h"
 #include "core/atomic_file.h"
 #include "core/file_kind.h"
@@ -24,27 +23,12 @@ std::string numbered(std::size_t index) {
   return name.data();
 }
 
-std::vector<ShotArm> readTable(const fs::path& file) {
-  const CsvTable table(file);
-  std::vector<ShotArm> arms(table.rows());
-  for (std::size_t row = 0; row < arms.size(); ++row) {
-    std::array<double, kColumns.size()> v{};
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      v.at(i) = table.number(row, table.column(kColumns.at(i)));
-    }
-    arms[row].joints = Eigen::Map<const JointVector>(v.data());
-    arms[row].fMe =
-        makePose({v[6], v[7], v[8]}, Eigen::Quaterniond(v[12], v[9], v[10], v[11]).normalized());
-  }
-  return arms;
-}
-
 }  // namespace
 
 ShotFolder::ShotFolder(fs::path folder, bool with_arm)
     : folder_(std::move(folder)), with_arm_(with_arm) {
   if (with_arm_ && isFile(table())) {
-    arms_ = readTable(table());
+    arms_ = readArmRows(table());
   }
   while (isFile(left(count_)) && isFile(right(count_)) && (!with_arm_ || count_ < arms_.size())) {
     ++count_;
@@ -72,14 +56,13 @@ std::vector<fs::path> ShotFolder::allRight() const {
   return files;
 }
 
-void ShotFolder::add(const GrayImage& left_image, const GrayImage& right_image,
-                     const ShotArm& arm) {
+void ShotFolder::add(const GrayImage& left_image, const GrayImage& right_image, const ArmRow& arm) {
   fs::create_directories(folder_ / "left");
   fs::create_directories(folder_ / "right");
   writeGrayImage(left(count_), left_image);
   writeGrayImage(right(count_), right_image);
   if (with_arm_) {
-    std::vector<ShotArm> arms = arms_;
+    std::vector<ArmRow> arms = arms_;
     arms.push_back(arm);
     writeTable(arms);
     arms_ = std::move(arms);
@@ -97,7 +80,7 @@ void ShotFolder::clear() {
   arms_.clear();
 }
 
-void ShotFolder::writeTable(const std::vector<ShotArm>& arms) const {
+void ShotFolder::writeTable(const std::vector<ArmRow>& arms) const {
   std::string text = "time_s";
   for (const char* name : kColumns) {
     text += std::string(",") + name;

@@ -11,17 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "calib/solve/pose_table.h"
 #include "core/image.h"
-#include "core/joints.h"
-#include "core/pose.h"
 
 namespace ringhook {
-
-/// Where the arm stood while a pair was taken.
-struct ShotArm {
-  JointVector joints = JointVector::Zero();  ///< [rad]
-  Pose fMe = Pose::Identity();               ///< flange
-};
 
 class ShotFolder {
  public:
@@ -36,21 +29,21 @@ class ShotFolder {
   [[nodiscard]] std::filesystem::path table() const { return folder_ / "robot.csv"; }
   [[nodiscard]] std::vector<std::filesystem::path> allLeft() const;
   [[nodiscard]] std::vector<std::filesystem::path> allRight() const;
-  [[nodiscard]] const std::vector<ShotArm>& arms() const { return arms_; }
+  [[nodiscard]] const std::vector<ArmRow>& arms() const { return arms_; }
 
   /// Stores a pair, and where the arm stood if the folder was made with_arm. Throws Error if the
   /// disk refuses; the folder then counts as before.
-  void add(const GrayImage& left, const GrayImage& right, const ShotArm& arm = {});
+  void add(const GrayImage& left, const GrayImage& right, const ArmRow& arm = {});
   /// Removes every pair.
   void clear();
 
  private:
-  void writeTable(const std::vector<ShotArm>& arms) const;
+  void writeTable(const std::vector<ArmRow>& arms) const;
 
   std::filesystem::path folder_;
   bool with_arm_;
   std::size_t count_ = 0;
-  std::vector<ShotArm> arms_;
+  std::vector<ArmRow> arms_;
 };
 
 }  // namespace ringhook

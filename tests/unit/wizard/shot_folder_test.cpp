@@ -19,8 +19,8 @@ GrayImage picture(std::uint8_t grey) {
   return image;
 }
 
-ShotArm armAt(double x) {
-  ShotArm arm;
+ArmRow armAt(double x) {
+  ArmRow arm;
   arm.joints = JointVector::Constant(x / 3.0);
   arm.fMe = makePoseThetaU({x, 0.2, 0.3}, {0.1, 0.2, 0.3});
   return arm;
