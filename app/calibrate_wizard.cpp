@@ -21,6 +21,8 @@ struct WizardArguments {
   std::string images;
   std::string board;
   std::optional<std::uint64_t> seed;
+  std::string again;
+  std::string until;
   std::string rigs = RINGHOOK_SOURCE_DIR "/calib/rigs";
   bool no_window = false;
 };
@@ -50,6 +52,8 @@ void runCommand(const WizardArguments& arguments) {
   options.images = unlessEmpty<std::filesystem::path>(arguments.images);
   options.board = unlessEmpty<std::string>(arguments.board);
   options.seed = arguments.seed;
+  options.again = unlessEmpty<std::string>(arguments.again);
+  options.until = unlessEmpty<std::string>(arguments.until);
   options.window = !arguments.no_window;
   options.default_cell = RINGHOOK_SOURCE_DIR "/app/config/cell-sim.yaml";
   options.accepted_rigs = arguments.rigs;
@@ -76,6 +80,12 @@ void addCalibrateWizard(CLI::App& calibrate) {
   wizard.add_option("--board", arguments->board, "the board, as for calibrate stereo");
   wizard.add_option("--seed", arguments->seed, "of a simulated cell (1)")
       ->check(CLI::NonNegativeNumber);
+  wizard
+      .add_option("--again", arguments->again,
+                  "do this step anew, with new pictures, and all after it")
+      ->check(CLI::IsMember(wizardSteps()));
+  wizard.add_option("--until", arguments->until, "stop after this step")
+      ->check(CLI::IsMember(wizardSteps()));
   wizard.add_option("--rigs", arguments->rigs, "where the accepted rig is kept with its evidence")
       ->type_name("DIR");
   wizard.add_flag("--no-window", arguments->no_window, "no window, even with a display");

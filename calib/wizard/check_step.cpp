@@ -60,7 +60,7 @@ void checkStep(WizardContext& context) {
   console.say("  verdict: " + toString(result.state));
   context.session.report("check", json(result).dump());
   if (result.state != RigState::kOk) {
-    throw Error("the rig does not stand the check: begin anew with another --session");
+    throw Error("the rig does not stand the check: --again stereo begins anew");
   }
 }
 

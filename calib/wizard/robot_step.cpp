@@ -220,7 +220,9 @@ void robotStep(WizardContext& context) {
   }
   context.session.report("robot", json(result.result));
   if (result.result.verdict.grade == Grade::kPoor) {
-    throw Error("the cameras' place in the robot's frame is not known well enough to go on");
+    throw Error(
+        "the cameras' place in the robot's frame is not known well enough to go on: --again robot "
+        "takes new pictures");
   }
   rig.fMc1 = result.result.pose.camera;
   context.session.keepRig("robot", rig);

@@ -1,5 +1,8 @@
 #include "calib/wizard/wizard.h"
 
+#include <array>
+
+#include "calib/wizard/shot_folder.h"
 #include "calib/wizard/steps.h"
 #include "core/error.h"
 #include "core/file_kind.h"
@@ -93,15 +96,52 @@ WizardAnswers answersFor(const WizardOptions& options, const Session& session, C
   return answers;
 }
 
-void runStep(WizardContext& context, const char* step, void (*run)(WizardContext&)) {
-  if (context.session.rig(step)) {
-    context.console.say("Done before: " + std::string(step) + " (rig-" + step + ".yaml).");
-  } else {
-    run(context);
+struct Step {
+  const char* name;
+  const char* pictures;  ///< folder; null: none
+  void (*run)(WizardContext&);
+};
+
+constexpr std::array<Step, 4> kSteps = {{{"stereo", "board", stereoStep},
+                                         {"robot", "arm", robotStep},
+                                         {"time", nullptr, timeStep},
+                                         {"check", "check", checkStep}}};
+
+/// Takes back a step and all after it.
+void forget(const Session& session, const std::string& first) {
+  session.forgetFrom(first);
+  bool from_here = false;
+  for (const Step& step : kSteps) {
+    from_here = from_here || first == step.name;
+    if (from_here && step.pictures != nullptr) {
+      ShotFolder(session.file(step.pictures), std::string(step.pictures) == "arm").clear();
+    }
   }
 }
 
+/// True if the wizard may go on to the next step.
+bool runStep(WizardContext& context, const Step& step, const WizardOptions& options) {
+  if (context.session.rig(step.name)) {
+    context.console.say("Done before: " + std::string(step.name) + " (rig-" + step.name +
+                        ".yaml).");
+  } else {
+    step.run(context);
+  }
+  return !options.until || *options.until != step.name;
+}
+
 }  // namespace
+
+const std::vector<std::string>& wizardSteps() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Step& step : kSteps) {
+      all.emplace_back(step.name);
+    }
+    return all;
+  }();
+  return names;
+}
 
 void runWizard(const WizardOptions& options, Console& console, const HookMaker& progress,
                const std::function<void()>& check) {
@@ -111,13 +151,19 @@ void runWizard(const WizardOptions& options, Console& console, const HookMaker& 
       options.session.string() + ".");
   const Session session(options.session);
   const WizardAnswers answers = answersFor(options, session, console);
+  if (options.again) {
+    forget(session, *options.again);
+  }
   LiveView view(session.file("live.png"), options.window && LiveView::displayAtHand());
   WizardContext context(console, session, answers, view, progress, check);
   console.say("Every pair of pictures is shown in " + session.file("live.png").string() + ".");
-  runStep(context, "stereo", stereoStep);
-  runStep(context, "robot", robotStep);
-  runStep(context, "time", timeStep);
-  checkStep(context);
+  for (const Step& step : kSteps) {
+    if (!runStep(context, step, options)) {
+      console.say(
+          "That was the last step asked for; without --until the wizard goes on from here.");
+      return;
+    }
+  }
   finishStep(context, options.accepted_rigs, options.date, options.version);
 }
 

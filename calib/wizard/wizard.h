@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calib/wizard/context.h"
 
@@ -20,12 +21,17 @@ struct WizardOptions {
   std::optional<std::filesystem::path> images;
   std::optional<std::string> board;
   std::optional<std::uint64_t> seed;
+  std::optional<std::string> again;     ///< step to do anew, pictures included, and all after it
+  std::optional<std::string> until;     ///< last step to do
   bool window = true;                   ///< show pictures in a window where there is a display
   std::filesystem::path default_cell;   ///< proposed
   std::filesystem::path accepted_rigs;  ///< where accepted results are kept
   std::string date;                     ///< of the result, ISO 8601
   std::string version;                  ///< of the program
 };
+
+/// Names of the steps that --again and --until take: stereo, robot, time, check.
+const std::vector<std::string>& wizardSteps();
 
 /// Throws InputError for bad answers on the command line, Interrupted when the integrator leaves,
 /// Error if a step cannot be brought to a good end, DeviceError.

@@ -61,6 +61,24 @@ void expectNearTruth(const StereoRig& rig) {
   EXPECT_LT(rig.robot_delay_s, 0.0075);
 }
 
+/// The check once more with new pictures; then the cameras from the session's own pictures.
+void goThroughAgain(const fs::path& folder) {
+  auto again = kWizard;
+  again.insert(again.end(), {"--again", "check"});
+  Terminal check(folder, again);
+  EXPECT_TRUE(check.waitFor("Done before: time")) << check.said();
+  EXPECT_TRUE(check.waitFor("pair 1:")) << check.said();
+  EXPECT_EQ(check.wait(), 0) << check.said();
+  Terminal stored(folder, {"calibrate", "wizard", "--session", "stored", "--images", "session",
+                           "--cell", "session/cell.yaml", "--board", "chessboard:9x6:30mm",
+                           "--until", "stereo", "--no-window"});
+  EXPECT_EQ(stored.wait(), 0) << stored.said();
+  const StereoRig first = loadRig(folder / "session/rig-stereo.yaml");
+  const StereoRig second = loadRig(folder / "stored/rig-stereo.yaml");
+  EXPECT_NEAR(baseline(first), baseline(second), 1e-8);
+  EXPECT_FALSE(fs::exists(folder / "stored/rig-robot.yaml"));
+}
+
 TEST(WizardProgram, SetsTheSimulatedCellUpThoughItWasKilledOnce) {
   const ScratchFolder folder;
   beginAndKill(folder.path());
@@ -76,6 +94,7 @@ TEST(WizardProgram, SetsTheSimulatedCellUpThoughItWasKilledOnce) {
   }
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "session/live.png"));
   EXPECT_FALSE(fs::is_empty(folder.path() / "rigs"));
+  goThroughAgain(folder.path());
 }
 
 TEST(WizardProgram, CtrlCAtAQuestionLeavesAtOnceAndNothingBehind) {
