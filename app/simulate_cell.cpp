@@ -109,6 +109,19 @@ void keepMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
 }
 
+/// Prints what the cell saw, and gives it as JSON.
+nlohmann::ordered_json toldAtTheEnd(CellServer& server, const CellTruth& end) {
+  std::fprintf(stderr, "served with %s priority\n", nameOf(server.arm().priority()));
+  const Rx60Counts counts = server.controller().counts();
+  printController(counts, server.arm().lateTicks());
+  printCount("pairs of images", server.pairs());
+  printRings(end);
+  nlohmann::ordered_json json = controllerJson(counts, server.arm().lateTicks());
+  json["image_pairs"] = server.pairs();
+  json["rings"] = ringsJson(end);
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json serveCell(const CellJob& job) {
@@ -143,17 +156,9 @@ nlohmann::ordered_json serveCell(const CellJob& job) {
   if (log) {
     log->commit();
   }
-  std::fprintf(stderr, "served with %s priority\n", nameOf(server.arm().priority()));
-  const CellTruth end = truth(world);
-  const Rx60Counts counts = server.controller().counts();
-  printController(counts, server.arm().lateTicks());
-  printCount("pairs of images", server.pairs());
-  printRings(end);
-  nlohmann::ordered_json json = controllerJson(counts, server.arm().lateTicks());
+  nlohmann::ordered_json json = toldAtTheEnd(server, truth(world));
   json["scenario"] = scenario.name;
   json["seed"] = job.seed;
-  json["image_pairs"] = server.pairs();
-  json["rings"] = ringsJson(end);
   return json;
 }
 

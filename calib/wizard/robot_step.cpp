@@ -184,6 +184,24 @@ std::string json(const HandEyeResult& r) {
       .dump();
 }
 
+void tell(WizardContext& context, const PlateCalibration& calibration) {
+  const HandEyeResult& result = calibration.result;
+  for (const RejectedPair& pair : result.rejected) {
+    context.console.say("  not used: " + pair.name + ", " + pair.reason);
+  }
+  context.console.say(figures(result) + "\n  verdict: " + toString(result.verdict.grade) + ": " +
+                      result.verdict.sentence);
+  if (calibration.zeros) {
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "  with the arm's joint zeros put right in its controller: held-out %.3f mm\n"
+                  "  (which zeros: ringhook calibrate robot with the pictures in %s)",
+                  1e3 * calibration.zeros->heldout.translation_m,
+                  context.session.file("arm").string().c_str());
+    context.console.say(text);
+  }
+}
+
 }  // namespace
 
 void robotStep(WizardContext& context) {
@@ -204,20 +222,7 @@ void robotStep(WizardContext& context) {
   const FoundPlates found = findPlates(images, rig, plate, context.progress("finding the plate"));
   const PlateCalibration result = calibrateFromViews(found.views, EyeSetup::kEyeToHand,
                                                      context.progress("calibrating the robot"));
-  for (const RejectedPair& pair : result.result.rejected) {
-    console.say("  not used: " + pair.name + ", " + pair.reason);
-  }
-  console.say(figures(result.result) + "\n  verdict: " + toString(result.result.verdict.grade) +
-              ": " + result.result.verdict.sentence);
-  if (result.zeros) {
-    char text[200];
-    std::snprintf(text, sizeof(text),
-                  "  with the arm's joint zeros put right in its controller: held-out %.3f mm\n"
-                  "  (which zeros: ringhook calibrate robot with the pictures in %s)",
-                  1e3 * result.zeros->heldout.translation_m,
-                  context.session.file("arm").string().c_str());
-    console.say(text);
-  }
+  tell(context, result);
   context.session.report("robot", json(result.result));
   if (result.result.verdict.grade == Grade::kPoor) {
     throw Error(
