@@ -2,39 +2,24 @@
 
 #include <algorithm>
 
-#include "calib/solve/board.h"
+#include "calib/solve/board_grid.h"
 
 namespace ringhook {
 namespace {
 
 using Grid = std::vector<Eigen::Vector2d>;
 
-std::size_t at(const Board& board, int row, int column) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(board.columns) +
-         static_cast<std::size_t>(column);
-}
-
 // Mean image directions of a board's columns (first) and rows (second) [px].
 Eigen::Matrix2d directions(const Grid& grid, const Board& board) {
   Eigen::Matrix2d d = Eigen::Matrix2d::Zero();
   for (int r = 0; r < board.rows; ++r) {
-    d.col(0) += grid[at(board, r, board.columns - 1)] - grid[at(board, r, 0)];
+    d.col(0) += grid[gridIndex(board, r, board.columns - 1)] - grid[gridIndex(board, r, 0)];
   }
   for (int c = 0; c < board.columns; ++c) {
-    d.col(1) += grid[at(board, board.rows - 1, c)] - grid[at(board, 0, c)];
+    d.col(1) += grid[gridIndex(board, board.rows - 1, c)] - grid[gridIndex(board, 0, c)];
   }
   d.colwise().normalize();
   return d;
-}
-
-Grid quarterTurned(const Grid& grid, const Board& board) {
-  Grid turned(grid.size());
-  for (int r = 0; r < board.rows; ++r) {
-    for (int c = 0; c < board.columns; ++c) {
-      turned[at(board, r, c)] = grid[at(board, c, board.columns - 1 - r)];
-    }
-  }
-  return turned;
 }
 
 // A quarter turn of a chessboard swaps its colours if the count across is odd.

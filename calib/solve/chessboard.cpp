@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calib/solve/board_grid.h"
 #include "calib/solve/cv_image.h"
 
 namespace ringhook {
@@ -16,22 +17,6 @@ constexpr double kRim = 0.5;  // nearest foreign edge [squares]
 constexpr double kSmallestSquare_px = 5.0;
 constexpr int kLargestSearch_px = 1280;
 
-std::size_t at(const Board& board, int row, int column) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(board.columns) +
-         static_cast<std::size_t>(column);
-}
-
-// A board with columns = rows, counted again from the corner that followed the first one.
-Corners quarterTurned(const Corners& corners, const Board& board) {
-  Corners turned(corners.size());
-  for (int r = 0; r < board.rows; ++r) {
-    for (int c = 0; c < board.columns; ++c) {
-      turned[at(board, r, c)] = corners[at(board, c, board.columns - 1 - r)];
-    }
-  }
-  return turned;
-}
-
 // Mean grey value of the squares of the first one's colour, less that of the other colour.
 double firstColour(const GrayImage& image, const Corners& corners, const Board& board) {
   std::array<double, 2> sum{};
@@ -39,8 +24,8 @@ double firstColour(const GrayImage& image, const Corners& corners, const Board& 
   for (int r = 0; r + 1 < board.rows; ++r) {
     for (int c = 0; c + 1 < board.columns; ++c) {
       const Eigen::Vector2d centre =
-          (corners[at(board, r, c)] + corners[at(board, r, c + 1)] + corners[at(board, r + 1, c)] +
-           corners[at(board, r + 1, c + 1)]) /
+          (corners[gridIndex(board, r, c)] + corners[gridIndex(board, r, c + 1)] +
+           corners[gridIndex(board, r + 1, c)] + corners[gridIndex(board, r + 1, c + 1)]) /
           4.0;
       const auto parity = static_cast<std::size_t>((r + c) % 2);
       const auto x = std::clamp(std::lround(centre.x()), 0L, image.width - 1L);
@@ -125,7 +110,7 @@ bool partOfLarger(const GrayImage& image, const Corners& corners, const Board& b
   const auto line = [&](int index, bool row) {
     Corners points;
     for (int k = 0; k < (row ? board.columns : board.rows); ++k) {
-      points.push_back(corners[row ? at(board, index, k) : at(board, k, index)]);
+      points.push_back(corners[row ? gridIndex(board, index, k) : gridIndex(board, k, index)]);
     }
     return points;
   };

@@ -1,6 +1,5 @@
 #include "calib/solve/hand_eye.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include "calib/solve/hand_eye_starts.h"
 #include "calib/solve/hand_eye_verdict.h"
 #include "calib/solve/sentence.h"
+#include "calib/solve/small_statistics.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -32,11 +32,6 @@ void requireMotion(const std::vector<PosePair>& pairs) {
         "the flange has the same orientation in all pairs: turn it by 30 degrees and more about at "
         "least two of its axes between the pairs");
   }
-}
-
-double largestSigma(const Matrix3& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
 }
 
 // Where the targets were seen, in c [m].

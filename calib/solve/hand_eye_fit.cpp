@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/solve/small_statistics.h"
+
 namespace ringhook {
 namespace {
 
@@ -116,12 +118,6 @@ std::vector<PairError> errors(const HandEye& pose, const std::vector<PosePair>& 
     all.push_back(pairError(pose, pair, setup));
   }
   return all;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // What the fit's twelve parameters take away from the residuals of n pairs, six each.

@@ -1,6 +1,5 @@
 #include "calib/solve/point_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "calib/solve/hand_eye_verdict.h"
 #include "calib/solve/pose_table.h"
 #include "calib/solve/sentence.h"
+#include "calib/solve/small_statistics.h"
 #include "core/error.h"
 #include "stereo/rigid_fit.h"
 
@@ -45,12 +45,6 @@ std::vector<double> distances(const Pose& fMc1, const std::vector<PointPair>& po
     all.push_back((fMc1 * p.point_c - p.point_f).norm());
   }
   return all;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::vector<bool> drawTriple(std::size_t size, std::mt19937_64& dice) {
@@ -132,11 +126,6 @@ void leaveOut(const std::vector<PointPair>& points, PointFit& fit) {
     }
   }
   fit.heldout_m = rms(missed, fit.used);
-}
-
-double largestSigma(const Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
 }
 
 void uncertaintyOf(const std::vector<PointPair>& points, PointFit& fit) {

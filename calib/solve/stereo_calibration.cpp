@@ -6,18 +6,13 @@
 #include <cmath>
 
 #include "calib/solve/circle_grid.h"
+#include "calib/solve/small_statistics.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
 constexpr int kCircleRounds = 3;  // the bias of a circle's centre changes by 1e-3 of itself a round
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 void requireViews(const StereoViews& found, const Board& board) {
   if (found.usable.size() < static_cast<std::size_t>(kFewestViews)) {

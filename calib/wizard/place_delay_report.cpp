@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "calib/solve/small_statistics.h"
 #include "calib/wizard/place_delays.h"
 
 namespace ringhook {
@@ -10,12 +11,6 @@ namespace {
 constexpr double kGoodSigma = 0.0003;  // asked for [s]
 constexpr double kNegative = 0.0005;   // a delay below minus this cannot be [s]
 constexpr double kLateScale = 1.4826;  // of the median deviation to a normal one's standard one
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The usual lateness; a few late images do not count.
 KnownDelay usual(const std::vector<double>& lateness_s) {

@@ -1,0 +1,30 @@
+#pragma once
+
+/// \file
+/// Two figures that several calibrations need.
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ringhook {
+
+/// The middle value, or the mean of the two middle ones. Precondition: at least one value.
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) {
+    return *middle;
+  }
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Standard deviation in the direction in which it is largest; unit of the covariance's root.
+inline double largestSigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
+}
+
+}  // namespace ringhook
