@@ -28,6 +28,7 @@ struct RobotJob {
   std::string setup = "eye-to-hand";
   std::string out;
   std::string json;
+  bool keep_zeros = false;
 };
 
 void requireSources(const RobotJob& job) {
@@ -40,8 +41,8 @@ void requireSources(const RobotJob& job) {
   if (!job.images.empty() && !complete) {
     throw InputError("--images needs --poses, --rig and --target as well");
   }
-  if (job.images.empty() && !(job.poses + job.target + job.right).empty()) {
-    throw InputError("--poses, --target and --right go with --images only");
+  if (job.images.empty() && (job.keep_zeros || !(job.poses + job.target + job.right).empty())) {
+    throw InputError("--poses, --target, --right and --keep-zeros go with --images only");
   }
   if (!job.out.empty() && job.rig.empty()) {
     throw InputError("--out writes the rig of --rig with fMc1 in it: --rig is missing");
@@ -56,7 +57,8 @@ void requireSources(const RobotJob& job) {
 }
 
 // The rig with the camera's new place; nothing is written after a poor verdict.
-void finish(const RobotJob& job, const Pose& camera, const Verdict& verdict) {
+void finish(const RobotJob& job, const Pose& camera, const Verdict& verdict,
+            const JointVector& arm_zeros_rad = JointVector::Zero()) {
   if (verdict.grade == Grade::kPoor) {
     throw Error("the robot-camera calibration is not usable: " + verdict.sentence);
   }
@@ -65,6 +67,11 @@ void finish(const RobotJob& job, const Pose& camera, const Verdict& verdict) {
   }
   StereoRig rig = loadAnyRig(job.rig);
   rig.fMc1 = camera;
+  if (!rig.joint_zeros_rad.isZero(0.0) && arm_zeros_rad.isZero(0.0)) {
+    std::printf("the joint zeros of %s are dropped: the flange poses were taken without them\n",
+                job.rig.c_str());
+  }
+  rig.joint_zeros_rad = arm_zeros_rad;
   rig.date = utcDate();
   rig.tool_version = RINGHOOK_VERSION;
   saveRig(job.out, rig);
@@ -119,13 +126,16 @@ void fromImages(const RobotJob& job, JsonFile& json) {
   {
     Progress progress("calibrating");
     const EyeSetup setup = parseSetup(job.setup);
-    calibration = named("--images with the plate in sight",
-                        [&] { return calibrateFromViews(found.views, setup, hookFor(progress)); });
+    const ZeroChoice choice = job.keep_zeros ? ZeroChoice::kKeep : ZeroChoice::kWherePaying;
+    calibration = named("--images with the plate in sight", [&] {
+      return calibrateFromViews(found.views, setup, choice, hookFor(progress), rig.joint_zeros_rad);
+    });
   }
   calibration.blind.insert(calibration.blind.begin(), found.blind.begin(), found.blind.end());
   json.commit(summaryOf(calibration).dump(2) + "\n");
   printResult(calibration);
-  finish(job, calibration.result.pose.camera, calibration.result.verdict);
+  finish(job, calibration.result.pose.camera, calibration.result.verdict,
+         calibration.arm_zeros_rad);
 }
 
 void calibrateRobot(const RobotJob& job) {
@@ -170,6 +180,8 @@ void addCalibrateRobot(CLI::App& calibrate) {
       .add_option("--setup", job->setup,
                   "eye-to-hand: camera fixed, target on the flange; eye-in-hand: the other way")
       ->capture_default_str();
+  robot.add_flag("--keep-zeros", job->keep_zeros,
+                 "take the arm's joint zeros as they are, even where correcting them pays");
   robot.add_option("--out", job->out, "rig file to write: that of --rig with fMc1 in it");
   addJsonOption(robot, job->json, "write the figures to this file");
   robot.callback([job] { calibrateRobot(*job); });

@@ -1,11 +1,12 @@
 #include "app/robot_report.h"
 
 #include <cstdio>
+#include <numbers>
 
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 nlohmann::json listOf(const Eigen::VectorXd& v, double unit = 1.0) {
   const Eigen::VectorXd scaled = v / unit;
@@ -116,6 +117,8 @@ nlohmann::json summaryOf(const PlateCalibration& c) {
     json["joint_zeros_deg"] = listOf(c.zeros->zero_rad, kDegree);
     json["joint_zeros_sigma_deg"] = listOf(c.zeros->sigma_rad, kDegree);
     json["heldout_with_joint_zeros_mm"] = 1e3 * c.zeros->heldout.translation_m;
+    json["heldout_without_joint_zeros_mm"] = 1e3 * c.plain_heldout.translation_m;
+    json["joint_zeros_used"] = c.zeros_used;
   }
   return json;
 }
@@ -181,8 +184,9 @@ void printResult(const PlateCalibration& c) {
     for (int j = 0; j < c.zeros->zero_rad.size(); ++j) {
       std::printf(" %.4f +- %.4f", c.zeros->zero_rad(j) / kDegree, c.zeros->sigma_rad(j) / kDegree);
     }
-    std::printf("\n  with them put right in the controller, held out %.3f mm instead of %.3f mm\n",
-                1e3 * c.zeros->heldout.translation_m, 1e3 * c.result.heldout.translation_m);
+    std::printf("\n  held out %.3f mm with them, %.3f mm without: %s\n",
+                1e3 * c.zeros->heldout.translation_m, 1e3 * c.plain_heldout.translation_m,
+                c.zeros_used ? "they are used, and belong to fMc1" : "they are not used");
   }
 }
 

@@ -64,7 +64,7 @@ HandEyeSigmas larger(const HandEyeSigmas& a, const HandEyeSigmas& b) {
 // Every used pair left out once: its error, and the jackknife's covariance of (a, b).
 Covariance12 leaveOut(const std::vector<PosePair>& pairs, HandEyeResult& result) {
   std::vector<Eigen::Matrix<double, 12, 1>> changes;
-  PairError sum;
+  result.left_out.clear();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!result.used[i]) {
       continue;
@@ -72,16 +72,14 @@ Covariance12 leaveOut(const std::vector<PosePair>& pairs, HandEyeResult& result)
     std::vector<bool> used = result.used;
     used[i] = false;
     const HandEye without = refitHandEye(pairs, result.setup, result.pose, used, result.noise);
-    const PairError e = pairError(without, pairs[i], result.setup);
-    sum.translation_m += e.translation_m * e.translation_m;
-    sum.rotation_rad += e.rotation_rad * e.rotation_rad;
+    result.left_out.push_back(pairError(without, pairs[i], result.setup));
     Eigen::Matrix<double, 12, 1> change;
     change << logSe3(result.pose.camera.inverse() * without.camera),
         logSe3(result.pose.target.inverse() * without.target);
     changes.push_back(change);
   }
   const auto n = static_cast<double>(changes.size());
-  result.heldout = {std::sqrt(sum.translation_m / n), std::sqrt(sum.rotation_rad / n)};
+  result.heldout = rms(result.left_out);
   Eigen::Matrix<double, 12, 1> mean = Eigen::Matrix<double, 12, 1>::Zero();
   for (const auto& change : changes) {
     mean += change / n;

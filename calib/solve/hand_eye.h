@@ -59,9 +59,10 @@ struct HandEyeResult {
   PairError residual;  ///< RMS over the pairs used
   PairError heldout;   ///< RMS of pairs predicted by a fit without them
   std::vector<RejectedPair> rejected;
-  std::vector<PairError> errors;  ///< of every pair given
-  std::vector<bool> used;         ///< one per pair given
-  std::string solver;             ///< the start that the result came from
+  std::vector<PairError> errors;    ///< of every pair given
+  std::vector<PairError> left_out;  ///< of every pair used: predicted by a fit without it
+  std::vector<bool> used;           ///< one per pair given
+  std::string solver;               ///< the start that the result came from
   std::vector<ClosedFormResult> closed_forms;
   Convention better_convention;  ///< words empty: none explains the pairs better
   std::string advice;            ///< which motion would tell most; may be empty

@@ -217,19 +217,25 @@ PairError pairError(const HandEye& pose, const PosePair& pair, EyeSetup setup) {
   return {D.translation().norm(), thetaU(D.linear()).norm()};
 }
 
+PairError rms(const std::vector<PairError>& errors) {
+  PairError sum;
+  for (const PairError& e : errors) {
+    sum.translation_m += e.translation_m * e.translation_m;
+    sum.rotation_rad += e.rotation_rad * e.rotation_rad;
+  }
+  const auto n = static_cast<double>(errors.size());
+  return {std::sqrt(sum.translation_m / n), std::sqrt(sum.rotation_rad / n)};
+}
+
 PairError rmsError(const HandEye& pose, const std::vector<PosePair>& pairs,
                    const std::vector<bool>& used, EyeSetup setup) {
-  PairError sum;
-  double n = 0.0;
+  std::vector<PairError> errors;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (used[i]) {
-      const PairError e = pairError(pose, pairs[i], setup);
-      sum.translation_m += e.translation_m * e.translation_m;
-      sum.rotation_rad += e.rotation_rad * e.rotation_rad;
-      n += 1.0;
+      errors.push_back(pairError(pose, pairs[i], setup));
     }
   }
-  return {std::sqrt(sum.translation_m / n), std::sqrt(sum.rotation_rad / n)};
+  return rms(errors);
 }
 
 double medianError(const HandEye& pose, const std::vector<PosePair>& pairs, EyeSetup setup) {

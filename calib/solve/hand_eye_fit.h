@@ -68,7 +68,8 @@ double leastNoiseShare(double residuals);
 /// Error of one pair.
 PairError pairError(const HandEye& pose, const PosePair& pair, EyeSetup setup);
 
-/// Root mean square of both errors over pairs with `used`.
+/// Root mean square of both errors; over pairs with `used`.
+PairError rms(const std::vector<PairError>& errors);
 PairError rmsError(const HandEye& pose, const std::vector<PosePair>& pairs,
                    const std::vector<bool>& used, EyeSetup setup);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace ringhook {
@@ -9,13 +10,22 @@ namespace {
 
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
-constexpr int kSteps = 8;  // Gauss-Newton; starts are near
+constexpr int kSteps = 8;       // Gauss-Newton; starts are near
+constexpr double kHeld = 1e-7;  // [rad]
 constexpr int kNoiseRounds = 6;
+constexpr double kClearly = 2.0;  // standard errors
 
 struct State {
   HandEye pose;
   JointVector zero = JointVector::Zero();
 };
+
+// Of the zeros [1/rad^2]; base and tool turn like joints 1 and 6, which are held.
+JointVector priorInformation() {
+  JointVector sigma = JointVector::Constant(kJointZeroPrior);
+  sigma[0] = sigma[5] = kHeld;
+  return sigma.cwiseAbs2().cwiseInverse();
+}
 
 // Twist of the flange at and in e per joint velocity.
 Jacobian flangeJacobian(const rx60::Geometry& geometry, const JointVector& q) {
@@ -26,6 +36,14 @@ Jacobian flangeJacobian(const rx60::Geometry& geometry, const JointVector& q) {
   return J;
 }
 
+// The arm as reported, moved by what the zeros change: fMe need not be our own arithmetic's.
+PosePair withZero(PosePair pair, const JointVector& joints, const rx60::Geometry& geometry,
+                  const JointVector& zero) {
+  pair.fMe =
+      pair.fMe * rx60::forward(geometry, joints).inverse() * rx60::forward(geometry, joints + zero);
+  return pair;
+}
+
 struct Fit {
   const std::vector<PosePair>& pairs;
   const std::vector<JointVector>& joints;
@@ -33,11 +51,7 @@ struct Fit {
   EyeSetup setup;
 
   [[nodiscard]] PosePair corrected(std::size_t i, const JointVector& zero) const {
-    PosePair pair = pairs[i];
-    // The arm as reported, moved by what the zeros change: fMe need not be our own arithmetic's.
-    pair.fMe = pair.fMe * rx60::forward(geometry, joints[i]).inverse() *
-               rx60::forward(geometry, joints[i] + zero);
-    return pair;
+    return withZero(pairs[i], joints[i], geometry, zero);
   }
 
   [[nodiscard]] Eigen::Matrix<double, 6, 18> jacobianOf(const State& state, std::size_t i,
@@ -57,9 +71,9 @@ struct Fit {
   Matrix18 step(State& state, const std::vector<bool>& used, const PairNoise& noise) const {
     Matrix18 H = Matrix18::Zero();
     Vector18 g = Vector18::Zero();
-    const double prior = 1.0 / (kJointZeroPrior * kJointZeroPrior);
-    H.diagonal().tail<6>().setConstant(prior);
-    g.tail<6>() = prior * state.zero;
+    const JointVector prior = priorInformation();
+    H.diagonal().tail<6>() = prior;
+    g.tail<6>() = prior.cwiseProduct(state.zero);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (used[i]) {
         const PosePair pair = corrected(i, state.zero);
@@ -86,30 +100,22 @@ struct Fit {
   }
 
   [[nodiscard]] std::vector<PosePair> correctedPairs(const JointVector& zero) const {
-    std::vector<PosePair> all;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      all.push_back(corrected(i, zero));
-    }
-    return all;
+    return withZeros(pairs, joints, geometry, zero);
   }
 
-  [[nodiscard]] PairError leaveOut(const State& state, const std::vector<bool>& used,
-                                   const PairNoise& noise) const {
-    PairError sum;
-    double n = 0.0;
+  [[nodiscard]] std::vector<PairError> leaveOut(const State& state, const std::vector<bool>& used,
+                                                const PairNoise& noise) const {
+    std::vector<PairError> left_out;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (used[i]) {
         std::vector<bool> others = used;
         others[i] = false;
         State without = state;
         solve(without, others, noise);
-        const PairError e = pairError(without.pose, corrected(i, without.zero), setup);
-        sum.translation_m += e.translation_m * e.translation_m;
-        sum.rotation_rad += e.rotation_rad * e.rotation_rad;
-        n += 1.0;
+        left_out.push_back(pairError(without.pose, corrected(i, without.zero), setup));
       }
     }
-    return {std::sqrt(sum.translation_m / n), std::sqrt(sum.rotation_rad / n)};
+    return left_out;
   }
 };
 
@@ -131,10 +137,38 @@ JointZeros fitJointZeros(const std::vector<PosePair>& pairs, const std::vector<J
   result.pose = state.pose;
   result.zero_rad = state.zero;
   result.sigma_rad = covariance.diagonal().tail<6>().cwiseSqrt();
+  for (const int held : {0, 5}) {
+    result.zero_rad[held] = result.sigma_rad[held] = 0.0;
+  }
   result.covariance = covariance.topLeftCorner<12, 12>();
   result.residual = rmsError(state.pose, fit.correctedPairs(state.zero), start.used, start.setup);
-  result.heldout = fit.leaveOut(state, start.used, result.noise);
+  result.left_out = fit.leaveOut(state, start.used, result.noise);
+  result.heldout = rms(result.left_out);
   return result;
+}
+
+bool zerosPay(const std::vector<PairError>& plain, const std::vector<PairError>& with_zeros) {
+  const auto n = static_cast<double>(plain.size());
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const double fall = plain[i].translation_m * plain[i].translation_m -
+                        with_zeros[i].translation_m * with_zeros[i].translation_m;
+    sum += fall;
+    squares += fall * fall;
+  }
+  const double mean = sum / n;
+  return mean > kClearly * std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1.0));
+}
+
+std::vector<PosePair> withZeros(const std::vector<PosePair>& pairs,
+                                const std::vector<JointVector>& joints,
+                                const rx60::Geometry& geometry, const JointVector& zero) {
+  std::vector<PosePair> all;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    all.push_back(withZero(pairs[i], joints[i], geometry, zero));
+  }
+  return all;
 }
 
 }  // namespace ringhook

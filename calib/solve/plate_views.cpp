@@ -60,34 +60,65 @@ std::vector<PosePair> pairsOf(std::vector<PlateView>& views, double sigma_px) {
 }
 
 /// With few views every zero error would explain noise.
-constexpr std::size_t kFewestForZeros = 12;
+constexpr std::ptrdiff_t kFewestForZeros = 12;
 constexpr double kOtherArm = 1e-3;  // from the kinematics of an RX60 [m]
 
-std::optional<JointZeros> zerosOf(const std::vector<PlateView>& views,
-                                  const PlateCalibration& calibration) {
-  const HandEyeResult& result = calibration.result;
-  std::vector<JointVector> joints;
+/// How far the flange is from where an arm's kinematics puts it, at most [m].
+double farthest(const std::vector<PlateView>& views, const rx60::Geometry& arm) {
+  double worst = 0.0;
   for (const PlateView& view : views) {
-    // Another arm's joints would be nonsense here.
-    if (view.joints &&
-        (rx60::forward(rx60::rx60(), *view.joints).translation() - view.fMe.translation()).norm() <
-            kOtherArm) {
-      joints.push_back(*view.joints);
-    }
+    const double d =
+        (rx60::forward(arm, *view.joints).translation() - view.fMe.translation()).norm();
+    worst = std::max(worst, d);
   }
-  const auto used =
-      static_cast<std::size_t>(std::count(result.used.begin(), result.used.end(), true));
-  if (joints.size() != calibration.pairs.size() || used < kFewestForZeros ||
-      result.verdict.grade == Grade::kPoor) {
+  return worst;
+}
+
+/// The RX60 that gave the views' fMe: as it came, or with the zeros told. Nothing for another arm's
+/// joints, or none.
+std::optional<rx60::Geometry> armBehind(const std::vector<PlateView>& views,
+                                        const JointVector& told_zeros_rad) {
+  if (!std::all_of(views.begin(), views.end(),
+                   [](const auto& v) { return v.joints.has_value(); })) {
     return std::nullopt;
   }
-  return fitJointZeros(calibration.pairs, joints, rx60::rx60(), result);
+  rx60::Geometry plain = rx60::rx60();
+  rx60::Geometry told = plain;
+  told.zero = told_zeros_rad;
+  const rx60::Geometry& arm = farthest(views, told) < farthest(views, plain) ? told : plain;
+  return farthest(views, arm) < kOtherArm ? std::optional(arm) : std::nullopt;
+}
+
+void findZeros(const std::vector<PlateView>& views, const rx60::Geometry& arm, ZeroChoice choice,
+               PlateCalibration& calibration) {
+  HandEyeResult& result = calibration.result;
+  std::vector<JointVector> joints;
+  for (const PlateView& view : views) {
+    joints.push_back(*view.joints);
+  }
+  const JointZeros zeros = fitJointZeros(calibration.pairs, joints, arm, result);
+  calibration.zeros = zeros;
+  calibration.zeros->zero_rad += arm.zero;
+  if (choice == ZeroChoice::kKeep || !zerosPay(result.left_out, zeros.left_out)) {
+    return;
+  }
+  calibration.zeros_used = true;
+  calibration.arm_zeros_rad = calibration.zeros->zero_rad;
+  calibration.pairs = withZeros(calibration.pairs, joints, arm, zeros.zero_rad);
+  result.pose = zeros.pose;
+  result.covariance = zeros.covariance;
+  result.noise = zeros.noise;
+  judgeHandEye(calibration.pairs, result);
+  // The judge leaves pairs out with the zeros kept; here they were found anew each time.
+  result.left_out = zeros.left_out;
+  result.heldout = zeros.heldout;
 }
 
 }  // namespace
 
 PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetup setup,
-                                    const StepHook& hook) {
+                                    ZeroChoice choice, const StepHook& hook,
+                                    const JointVector& told_zeros_rad) {
   PlateCalibration calibration;
   std::vector<PlateView> kept = sighted(views, calibration.blind);
   calibration.corner_sigma_px = cornerSigma(kept);
@@ -104,7 +135,14 @@ PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetu
   calibration.rms_px = bundle.rms_px;
   calibration.arm_rms_px = bundle.arm_rms_px;
   judgeHandEye(calibration.pairs, result);
-  calibration.zeros = zerosOf(kept, calibration);
+  calibration.plain_heldout = result.heldout;
+  const auto used = std::count(result.used.begin(), result.used.end(), true);
+  if (const auto arm = armBehind(kept, told_zeros_rad)) {
+    calibration.arm_zeros_rad = arm->zero;
+    if (used >= kFewestForZeros && result.verdict.grade != Grade::kPoor) {
+      findZeros(kept, *arm, choice, calibration);
+    }
+  }
   return calibration;
 }
 

@@ -30,18 +30,30 @@ struct PlateView {
 };
 
 struct PlateCalibration {
-  HandEyeResult result;             ///< pose, covariance, held-out errors, verdict
-  std::vector<PosePair> pairs;      ///< what each view says by itself, with its covariance
+  HandEyeResult result;  ///< pose, covariance, held-out errors, verdict
+  std::vector<PosePair>
+      pairs;  ///< what each view says by itself, with its covariance; the arm as result takes it
   std::vector<RejectedPair> blind;  ///< views that tell no pose; index among the views given
   double corner_sigma_px = 0.0;     ///< s_px, per axis
   double rms_px = 0.0;              ///< of the corners under the result, arm errors d_i taken out
-  std::optional<JointZeros> zeros;  ///< where all views have joints and the result may be used
   double arm_rms_px = 0.0;  ///< likewise with all d_i = 0: the arm's errors as the camera sees
+  std::optional<JointZeros> zeros;  ///< where all views have joints and the plain result is usable
+  bool zeros_used = false;          ///< result belongs to the arm corrected by them
+  JointVector arm_zeros_rad = JointVector::Zero();  ///< of the arm that result belongs to
+  PairError plain_heldout;                          ///< of the arm as it is
+};
+
+/// What to make of the arm's joint zeros.
+enum class ZeroChoice {
+  kKeep,        ///< the arm stays as it is
+  kWherePaying  ///< it is corrected where that predicts views left out clearly better
 };
 
 /// The whole job: each view's own pose, the pairs' calibration, then the refinement above from its
-/// result over the views it uses. Throws as calibrateRobotCamera does.
+/// result over the views it uses, then the joint zeros. Throws as calibrateRobotCamera does.
+/// \param told_zeros_rad by which the views' fMe may have been corrected already.
 PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetup setup,
-                                    const StepHook& hook);
+                                    ZeroChoice choice, const StepHook& hook,
+                                    const JointVector& told_zeros_rad = JointVector::Zero());
 
 }  // namespace ringhook

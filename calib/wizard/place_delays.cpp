@@ -39,7 +39,11 @@ class WatchedWiggle {
  public:
   WatchedWiggle(const PlaceDevices& devices, const CellConfig& cell, const StereoRig& rig,
                 const TagPlate& plate, const DelayStep& step)
-      : devices_(devices), step_(step), watch_(rig, plate), limiter_(limiterSettings(cell)) {
+      : devices_(devices),
+        step_(step),
+        watch_(rig, plate),
+        arm_(armOf(rig)),
+        limiter_(limiterSettings(cell)) {
     record_.motion.fMc1 = requireRobotCamera(rig, cell.rig);
     record_.stamps_are_mid_exposure = devices.stamps_are_mid_exposure;
     record_.command_delay_s = devices.arm.commandDelay();
@@ -119,7 +123,7 @@ class WatchedWiggle {
 
   void note(const ArmState& state) {
     record_.states.push_back(state);
-    const Pose fMe = rx60::forward(rx60::rx60(), state.position);
+    const Pose fMe = rx60::forward(arm_, state.position);
     record_.motion.flange.push_back({state.time, fMe});
     if (recorder_) {
       recorder_->addRobot(state.time, state.position, fMe);
@@ -151,6 +155,7 @@ class WatchedWiggle {
   const PlaceDevices& devices_;
   const DelayStep& step_;
   PlateWatch watch_;
+  rx60::Geometry arm_;
   Limiter limiter_;
   double lead_s_ = 0.0;
   Time begin_;

@@ -93,7 +93,7 @@ Outcome<Pose> DevicePlace::moveJoints(const JointVector& target) {
   if (const auto what = inTheWay(cell_, begin->position, target)) {
     return Refusal{*what};
   }
-  ArmMotion motion(withCommandDelay(cell_, *arm_));
+  ArmMotion motion(withCommandDelay(cell_, *arm_), rx60::rx60());
   if (const Outcome<JointVector> first = motion.moveTo(*begin, target); !first) {
     return Refusal{first.reason()};
   }

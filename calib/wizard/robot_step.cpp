@@ -1,8 +1,12 @@
+#include <spdlog/fmt/fmt.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "calib/solve/plate_images.h"
 #include "calib/solve/plate_views.h"
+#include "calib/solve/sentence.h"
 #include "calib/wizard/arm_poses.h"
 #include "calib/wizard/shot_folder.h"
 #include "calib/wizard/steps.h"
@@ -165,18 +169,29 @@ std::string figures(const HandEyeResult& r) {
                 "  pairs used %zu, rejected %zu\n"
                 "  residual %.3f mm and %.3f deg, held-out %.3f mm",
                 r.errors.size() - r.rejected.size(), r.rejected.size(),
-                1e3 * r.residual.translation_m, 180.0 / M_PI * r.residual.rotation_rad,
+                1e3 * r.residual.translation_m, 180.0 / std::numbers::pi * r.residual.rotation_rad,
                 1e3 * r.heldout.translation_m);
   return text;
 }
 
-std::string json(const HandEyeResult& r) {
+std::string zerosText(const JointVector& zeros_rad) {
+  std::string text;
+  for (const double zero : zeros_rad) {
+    text += fmt::format(" {:.3f}", zero * 180.0 / std::numbers::pi);
+  }
+  return text;
+}
+
+std::string json(const PlateCalibration& calibration) {
+  const HandEyeResult& r = calibration.result;
+  const JointVector zeros_deg = calibration.arm_zeros_rad * 180.0 / std::numbers::pi;
   const Eigen::Vector3d t = r.pose.camera.translation();
   const Eigen::Quaterniond q(r.pose.camera.linear());
   return nlohmann::json{{"translation_m", {t.x(), t.y(), t.z()}},
                         {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}},
                         {"residual_mm", 1e3 * r.residual.translation_m},
                         {"heldout_mm", 1e3 * r.heldout.translation_m},
+                        {"joint_zeros_deg", std::vector(zeros_deg.begin(), zeros_deg.end())},
                         {"solver", r.solver},
                         {"rejected_pairs", r.rejected.size()},
                         {"verdict", toString(r.verdict.grade)},
@@ -191,14 +206,11 @@ void tell(WizardContext& context, const PlateCalibration& calibration) {
   }
   context.console.say(figures(result) + "\n  verdict: " + toString(result.verdict.grade) + ": " +
                       result.verdict.sentence);
-  if (calibration.zeros) {
-    char text[200];
-    std::snprintf(text, sizeof(text),
-                  "  with the arm's joint zeros put right in its controller: held-out %.3f mm\n"
-                  "  (which zeros: ringhook calibrate robot with the pictures in %s)",
-                  1e3 * calibration.zeros->heldout.translation_m,
-                  context.session.file("arm").string().c_str());
-    context.console.say(text);
+  if (calibration.zeros_used) {
+    context.console.say("  the arm's joint zeros are off by" +
+                        zerosText(calibration.arm_zeros_rad) +
+                        " deg; the rig file holds them, and the held-out error falls from " +
+                        millimetres(calibration.plain_heldout.translation_m));
   }
 }
 
@@ -220,16 +232,18 @@ void robotStep(WizardContext& context) {
   const ShotFolder shots = ArmPairs(context, plate).take();
   const PlateImages images{shots.allLeft(), shots.allRight(), {shots.table()}};
   const FoundPlates found = findPlates(images, rig, plate, context.progress("finding the plate"));
-  const PlateCalibration result = calibrateFromViews(found.views, EyeSetup::kEyeToHand,
-                                                     context.progress("calibrating the robot"));
+  const PlateCalibration result =
+      calibrateFromViews(found.views, EyeSetup::kEyeToHand, ZeroChoice::kWherePaying,
+                         context.progress("calibrating the robot"));
   tell(context, result);
-  context.session.report("robot", json(result.result));
+  context.session.report("robot", json(result));
   if (result.result.verdict.grade == Grade::kPoor) {
     throw Error(
         "the cameras' place in the robot's frame is not known well enough to go on: --again robot "
         "takes new pictures");
   }
   rig.fMc1 = result.result.pose.camera;
+  rig.joint_zeros_rad = result.arm_zeros_rad;
   context.session.keepRig("robot", rig);
 }
 

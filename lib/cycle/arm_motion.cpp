@@ -10,8 +10,9 @@ constexpr double kArrived = 1e-3;        // [rad]
 constexpr double kCoarseGainPerS = 5.0;  // of the joint-space tracking law
 
 /// The ring's centre is the tool point.
-LimiterSettings limiterSettings(const ArmConfig& arm) {
+LimiterSettings limiterSettings(const ArmConfig& arm, const rx60::Geometry& geometry) {
   LimiterSettings settings;
+  settings.geometry = geometry;
   settings.tool_e = arm.eMr.translation();
   settings.period_s = kArmPeriod;
   return settings;
@@ -19,15 +20,22 @@ LimiterSettings limiterSettings(const ArmConfig& arm) {
 
 }  // namespace
 
-ArmMotion::ArmMotion(const CellConfig& cell)
+rx60::Geometry armOf(const StereoRig& rig) {
+  rx60::Geometry arm = rx60::rx60();
+  arm.zero = rig.joint_zeros_rad;
+  return arm;
+}
+
+ArmMotion::ArmMotion(const CellConfig& cell, const rx60::Geometry& arm)
     : eMr_(cell.arm.eMr),
-      limiter_(limiterSettings(cell.arm)),
+      arm_(arm),
+      limiter_(limiterSettings(cell.arm, arm)),
       speed_fraction_(cell.arm.speed_fraction),
       lead_s_(cell.arm.delay_s + 0.5 * kArmPeriod),
       servo_(ServoGains{cell.task.gain_per_s, cell.task.gain_per_s, 30.0}) {}
 
 Pose ArmMotion::ringPose(const JointVector& position) const {
-  return rx60::forward(rx60::rx60(), position) * eMr_;
+  return rx60::forward(arm_, position) * eMr_;
 }
 
 JointVector ArmMotion::rest(const ArmState& state) {
@@ -63,13 +71,13 @@ Outcome<FollowCommand> ArmMotion::follow(const ArmState& state, const HookFilter
     return Refusal{then.reason()};
   }
   const JointVector position = state.position + lead_s_ * limiter_.velocity();
-  const Pose fMe = rx60::forward(rx60::rx60(), position);
+  const Pose fMe = rx60::forward(arm_, position);
   const Outcome<ServoCommand> wanted = servo_.command(fMe * eMr_, *then, goal);
   if (!wanted) {
     return Refusal{wanted.reason()};
   }
   const ResolvedRate resolved =
-      resolve(flangeTwist(fMe, eMr_, wanted->twist_r), rx60::jacobian(rx60::rx60(), position));
+      resolve(flangeTwist(fMe, eMr_, wanted->twist_r), rx60::jacobian(arm_, position));
   const LimitedVelocity out = limiter_.limit(resolved.velocity, state.position);
   return FollowCommand{out.velocity, wanted->error, out.limited()};
 }

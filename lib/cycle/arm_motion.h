@@ -13,11 +13,15 @@
 #include "core/outcome.h"
 #include "cycle/cell_config.h"
 #include "prediction/hook_filter.h"
+#include "rig/stereo_rig.h"
 #include "robot/limiter.h"
 #include "servo/joint_move.h"
 #include "servo/pose_servo.h"
 
 namespace ringhook {
+
+/// The arm that a rig's fMc1 belongs to: its joint zeros are those of the rig.
+rx60::Geometry armOf(const StereoRig& rig);
 
 /// State messages of the arm are this far apart [s] (rx60.md: 250 Hz).
 inline constexpr double kArmPeriod = 0.004;
@@ -30,10 +34,10 @@ struct FollowCommand {
 
 class ArmMotion {
  public:
-  /// Throws InputError for gains out of range.
-  explicit ArmMotion(const CellConfig& cell);
+  /// \param arm as calibrated. Throws InputError for gains out of range.
+  ArmMotion(const CellConfig& cell, const rx60::Geometry& arm);
 
-  /// Ring in f by the nominal kinematics.
+  /// Ring in f by the arm's kinematics.
   [[nodiscard]] Pose ringPose(const JointVector& position) const;
 
   /// Slows down to rest as fast as the limits allow.
@@ -51,6 +55,7 @@ class ArmMotion {
 
  private:
   Pose eMr_;
+  rx60::Geometry arm_;
   Limiter limiter_;
   double speed_fraction_;
   double lead_s_;  ///< from a state to the middle of the period in which its command acts

@@ -22,8 +22,8 @@ const char* phaseName(TaskPhase phase) {
   return kNames.at(static_cast<std::size_t>(phase));
 }
 
-TaskControl::TaskControl(const CellConfig& cell)
-    : cell_(cell), path_parameters_(pathParameters(cell)), motion_(cell) {}
+TaskControl::TaskControl(const CellConfig& cell, const rx60::Geometry& arm)
+    : cell_(cell), path_parameters_(pathParameters(cell)), motion_(cell, arm) {}
 
 void TaskControl::startAttempt() {
   result_ = {};

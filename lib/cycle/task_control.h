@@ -65,7 +65,8 @@ struct AttemptResult {
 
 class TaskControl {
  public:
-  explicit TaskControl(const CellConfig& cell);
+  /// \param arm as calibrated.
+  TaskControl(const CellConfig& cell, const rx60::Geometry& arm);
 
   /// Begins with the next hook; a ring still held is kept.
   void startAttempt();

@@ -84,7 +84,7 @@ ServoReport runLiveServo(const ServoJob& job, const CellConfig& cell, const std:
   VisionStep vision(cell, rig, job.tracker);
   const std::unique_ptr<AravisStereoCamera> camera = openCameras(cell, rig.camera_delay_s);
   const std::unique_ptr<Rx60Arm> arm = openArm(cell);
-  TaskControl task(withDelays(cell, *arm, rig));
+  TaskControl task(withDelays(cell, *arm, rig), armOf(rig));
   LiveObserver observer(progress);
   try {
     VisionThread thread(*camera, vision, observer);

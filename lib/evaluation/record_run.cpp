@@ -8,6 +8,7 @@
 #include "camera/recording_folder.h"
 #include "camera/sequence_recorder.h"
 #include "core/error.h"
+#include "cycle/arm_motion.h"
 #include "cycle/vision_step.h"
 #include "evaluation/hook_past.h"
 #include "evaluation/truth_log.h"
@@ -58,7 +59,7 @@ class Recording {
       takeFrames();
       if (recorder_ && (!last_state_ || state.time > *last_state_)) {
         recorder_->addRobot(state.time, state.position,
-                            rx60::forward(rx60::rx60(), state.position));
+                            rx60::forward(armOf(devices_.told_rig), state.position));
         last_state_ = state.time;
       }
     }

@@ -82,9 +82,9 @@ class Belt {
         arm_(makeArm(world_, job)),
         camera_(world_, true_rig_, simCameraOptions(cell, scenario)),
         vision_(cell, told_rig_, job.tracker),
-        task_(withCommandDelay(cell, *arm_)),
-        witness_(world_, requireRobotCamera(true_rig_, cell.rig), cell.task.release_o,
-                 [this](const AttemptTruth& truth) { picture(truth); }),
+        task_(withCommandDelay(cell, *arm_), armOf(told_rig_)),
+        witness_(world_, requireRobotCamera(true_rig_, cell.rig), armOf(told_rig_),
+                 cell.task.release_o, [this](const AttemptTruth& truth) { picture(truth); }),
         first_(first),
         hooks_(hooks),
         truth_log_(truthFolder(job, first), world_, true_rig_) {

@@ -13,11 +13,12 @@ constexpr std::size_t kPastMax = 100;  // arm periods that are remembered
 
 }  // namespace
 
-ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1,
+ServoWitness::ServoWitness(const CellWorld& world, const Pose& fMc1, const rx60::Geometry& arm,
                            const Eigen::Vector3d& release_o,
                            std::function<void(const AttemptTruth&)> on_judged)
     : world_(world),
       fMc1_(fMc1),
+      arm_(arm),
       release_o_(release_o),
       on_judged_(std::move(on_judged)),
       limits_(rx60::limits()) {}
@@ -95,7 +96,7 @@ void ServoWitness::onCommand(const ArmState& state, const TaskCommand& command) 
     past_.pop_front();
   }
   if (recording_) {
-    recording_->addRobot(state.time, state.position, rx60::forward(rx60::rx60(), state.position));
+    recording_->addRobot(state.time, state.position, rx60::forward(arm_, state.position));
   }
   countCommand(state, command, limits_, statistics_);
   if (command.phase == TaskPhase::kLower) {

@@ -30,8 +30,10 @@ struct AttemptTruth {
 
 class ServoWitness : public LoopObserver {
  public:
-  /// `fMc1`: true left camera. `on_judged` is called at the moment of judgement, for a picture.
-  ServoWitness(const CellWorld& world, const Pose& fMc1, const Eigen::Vector3d& release_o,
+  /// `fMc1`: true left camera; `arm`: as told to the loop, for records. `on_judged` is called at
+  /// the moment of judgement, for a picture.
+  ServoWitness(const CellWorld& world, const Pose& fMc1, const rx60::Geometry& arm,
+               const Eigen::Vector3d& release_o,
                std::function<void(const AttemptTruth&)> on_judged);
 
   /// Opens a recording whose first frame shows the hook at `c1Mo`.
@@ -60,6 +62,7 @@ class ServoWitness : public LoopObserver {
 
   const CellWorld& world_;
   Pose fMc1_;
+  rx60::Geometry arm_;
   Eigen::Vector3d release_o_;
   std::function<void(const AttemptTruth&)> on_judged_;
   OpenRecording open_recording_;

@@ -1,5 +1,6 @@
 #include <Eigen/SVD>
 #include <fstream>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +16,8 @@ namespace ringhook {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string readText(const fs::path& path) {
   if (!isFile(path)) {
@@ -66,6 +69,14 @@ void readEvidence(const OpenCvKeys& keys, StereoRig& rig) {
   }
 }
 
+Eigen::VectorXd readJointZeros(const OpenCvKeys& keys) {
+  const Eigen::VectorXd degrees = keys.vector("joint_zeros_deg", 6);
+  if (degrees.size() != 6) {
+    keys.fail("joint_zeros_deg", "a 6x1 matrix, not " + std::to_string(degrees.size()) + "x1");
+  }
+  return degrees * kDegree;
+}
+
 StereoRig readRig(const OpenCvKeys& keys) {
   StereoRig rig;
   rig.left = readCamera(keys, "1");
@@ -78,6 +89,9 @@ StereoRig readRig(const OpenCvKeys& keys) {
       keys.fail("fMc1", "a 4x4 matrix with last row 0 0 0 1");
     }
     rig.fMc1 = Pose(Eigen::Matrix4d(m));
+  }
+  if (keys.has("joint_zeros_deg")) {
+    rig.joint_zeros_rad = readJointZeros(keys);
   }
   rig.robot_delay_s = keys.number("robot_delay_ms").value_or(0.0) * 1e-3;
   rig.camera_delay_s = keys.number("camera_delay_ms").value_or(0.0) * 1e-3;
@@ -115,6 +129,9 @@ void writeKnown(cv::FileStorage& file, const StereoRig& rig) {
   }
   if (rig.fMc1) {
     cv::write(file, "fMc1", toCv(rig.fMc1->matrix()));
+  }
+  if (!rig.joint_zeros_rad.isZero(0.0)) {
+    cv::write(file, "joint_zeros_deg", toCv(rig.joint_zeros_rad / kDegree));
   }
   cv::write(file, "robot_delay_ms", rig.robot_delay_s * 1e3);
   cv::write(file, "camera_delay_ms", rig.camera_delay_s * 1e3);

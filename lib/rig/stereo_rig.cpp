@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "core/error.h"
@@ -10,7 +11,8 @@ namespace ringhook {
 namespace {
 
 constexpr double kRotationTolerance = 1e-4;  // a matrix typed with five digits passes
-constexpr int kLargestSide = 16384;          // [px]; fixed-point maps hold coordinates in 16 bits
+constexpr double kLargestZero = 5.0 / 180.0 * std::numbers::pi;  // [rad]; more is another arm
+constexpr int kLargestSide = 16384;  // [px]; fixed-point maps hold coordinates in 16 bits
 
 [[noreturn]] void refuse(const std::string& where, const std::string& key,
                          const std::string& expected) {
@@ -76,6 +78,9 @@ void checkRig(const StereoRig& rig, const std::string& where) {
     if (!rig.fMc1->translation().allFinite()) {
       refuse(where, "the translation in fMc1", "finite [m]");
     }
+  }
+  if (!(rig.joint_zeros_rad.cwiseAbs().maxCoeff() < kLargestZero)) {
+    refuse(where, "joint_zeros_deg", "six angles below 5 degrees");
   }
   const auto checkFinite = [&](double value, const char* key) {
     if (!std::isfinite(value)) {

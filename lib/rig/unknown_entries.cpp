@@ -7,7 +7,7 @@
 namespace ringhook {
 namespace {
 
-constexpr std::array<std::string_view, 17> kKnownKeys = {"image_width",
+constexpr std::array<std::string_view, 18> kKnownKeys = {"image_width",
                                                          "image_height",
                                                          "K1",
                                                          "D1",
@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 17> kKnownKeys = {"image_width",
                                                          "R",
                                                          "T",
                                                          "fMc1",
+                                                         "joint_zeros_deg",
                                                          "robot_delay_ms",
                                                          "camera_delay_ms",
                                                          "rms_px",

@@ -86,6 +86,8 @@ GigeServer::GigeServer(const GigeServerOptions& options, PairSource source)
     : trigger_(std::move(source)) {
   cameras_[0] = std::make_unique<Camera>(options.left_address, 0, options.lost_packets, trigger_);
   cameras_[1] = std::make_unique<Camera>(options.right_address, 1, options.lost_packets, trigger_);
+  waker_ = std::make_unique<CameraWaker>(
+      std::vector<std::string>{options.left_address, options.right_address});
 }
 
 GigeServer::~GigeServer() { trigger_.close(); }

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "sim/camera_waker.h"
 #include "sim/shared_trigger.h"
 
 namespace ringhook {
@@ -43,6 +44,7 @@ class GigeServer {
   struct Camera;
   SharedTrigger trigger_;
   std::unique_ptr<Camera> cameras_[2];
+  std::unique_ptr<CameraWaker> waker_;
 };
 
 }  // namespace ringhook

@@ -4,12 +4,12 @@
 // lost, how often a frame's window was not the one that its pixels come from, and lateness; then
 // the same with packets lost on purpose. Runs in a network namespace of its own.
 //
-//   gige_bench [SECONDS]
+//   gige_bench --seconds 60
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include "../support/own_network.h"
@@ -156,8 +156,12 @@ int benchmark(double seconds) {
 }  // namespace ringhook
 
 int main(int argc, char** argv) {
+  double seconds = 60.0;
+  CLI::App app{"Two GigE Vision cameras on loopback; to be run in app/own-network"};
+  app.add_option("--seconds", seconds, "Of the first part")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
   try {
-    return ringhook::benchmark(argc > 1 ? std::atof(argv[1]) : 60.0);
+    return ringhook::benchmark(seconds);
   } catch (const ringhook::Error& e) {
     std::fprintf(stderr, "gige_bench: %s\n", e.what());
     return e.exitCode();

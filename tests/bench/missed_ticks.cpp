@@ -1,5 +1,6 @@
 #include "missed_ticks.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "bench_arm.h"
+#include "core/thread_priority.h"
 #include "robot/rx60/tcp_port.h"
 #include "sim/rx60_server.h"
 
@@ -45,6 +47,49 @@ class StolenTime {
     return ticks;
   }
   Ticks before_;
+};
+
+/// A thread of the link's own rank that does nothing but wake every tick: what no client on this
+/// machine can be better than.
+class Metronome {
+ public:
+  Metronome() : thread_([this] { run(); }) {}
+  ~Metronome() { finish(); }
+  Metronome(const Metronome&) = delete;
+  Metronome& operator=(const Metronome&) = delete;
+
+  void finish() {
+    end_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  /// Once finished.
+  void print() const {
+    std::printf(
+        "%-28s %8lld wake-ups every 4 ms,  %6lld late by more than 4 ms, the latest by %.2f ms\n",
+        "the machine itself", static_cast<long long>(wake_ups_), static_cast<long long>(late_),
+        1e3 * worst_s_);
+  }
+
+ private:
+  void run() {
+    const RaisedPriority raised(kLinkRank);
+    for (auto next = Clock::now() + kTick; !end_; next += kTick) {
+      std::this_thread::sleep_until(next);
+      const Clock::duration late = Clock::now() - next;
+      ++wake_ups_;
+      late_ += late > kTick ? 1 : 0;
+      worst_s_ = std::max(worst_s_, std::chrono::duration<double>(late).count());
+      next = late > kTick ? Clock::now() : next;
+    }
+  }
+
+  std::atomic<bool> end_ = false;
+  std::int64_t wake_ups_ = 0;
+  std::int64_t late_ = 0;
+  double worst_s_ = 0.0;
+  std::thread thread_;
 };
 
 /// A served controller that notes how many ticks in a row stayed without a command.
@@ -190,16 +235,19 @@ void serveFreeRunning(Served& served, double seconds) {
 
 void compareMissedTicks(double seconds) {
   const StolenTime stolen;
+  Metronome metronome;
   Served ours;
   Served free_running;
   std::thread one([&] { serveOurs(ours, seconds); });
   std::thread two([&] { serveFreeRunning(free_running, seconds); });
   one.join();
   two.join();
+  metronome.finish();
   ours.finish();
   free_running.finish();
   ours.print("our client");
   free_running.print("free-running 50 Hz client");
+  metronome.print();
   std::printf("processor time that the host above this machine took away meanwhile: %.1f %%\n",
               stolen.percent());
 }

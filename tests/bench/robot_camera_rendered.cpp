@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <numbers>
 
 #include "../unit/calib_robot/rendered_cell.h"
 #include "calib/solve/joint_zeros.h"
@@ -14,12 +15,49 @@
 namespace ringhook {
 namespace {
 
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
 double positionError(const Pose& a, const Pose& b) {
   return 1e3 * (a.translation() - b.translation()).norm();
 }
 
 double angleError(const Pose& a, const Pose& b) {
-  return thetaU(a.linear().transpose() * b.linear()).norm() * 180.0 / 3.14159265358979323846;
+  return thetaU(a.linear().transpose() * b.linear()).norm() * kDegrees;
+}
+
+void printZeros(const JointZeros& zeros, const JointVector& truth) {
+  std::printf("        joint zeros, found, sigma, true [deg]:");
+  for (int k = 1; k < 5; ++k) {  // those of joints 1 and 6 are camera and plate
+    std::printf("  %.4f %.4f %.4f", kDegrees * zeros.zero_rad[k], kDegrees * zeros.sigma_rad[k],
+                kDegrees * truth[k]);
+  }
+  std::printf("\n");
+}
+
+void printViews(const RenderedCell& cell, const std::vector<PlateView>& views, unsigned seed,
+                ZeroChoice choice) {
+  const PlateCalibration c =
+      calibrateFromViews(views, EyeSetup::kEyeToHand, choice, [](double, const std::string&) {});
+  const HandEyeResult& r = c.result;
+  std::printf(
+      "seed %u  %zu poses, zeros %s: residual %.3f mm %.4f deg, held out %.3f mm (%.3f per axis), "
+      "corners %.3f px, %.3f px with a perfect arm, rejected %zu, %s\n",
+      seed, views.size(), c.zeros_used ? "corrected" : "kept", 1e3 * r.residual.translation_m,
+      r.residual.rotation_rad * kDegrees, 1e3 * r.heldout.translation_m,
+      1e3 * r.heldout.translation_m / std::sqrt(3.0), c.rms_px, c.arm_rms_px, r.rejected.size(),
+      r.verdict.sentence.c_str());
+  std::printf("        camera off by %.3f mm %.4f deg, plate off by %.3f mm %.4f deg\n",
+              positionError(r.pose.camera, cell.trueCamera()),
+              angleError(r.pose.camera, cell.trueCamera()),
+              positionError(r.pose.target, RenderedCell::trueTarget()),
+              angleError(r.pose.target, RenderedCell::trueTarget()));
+  std::printf("        ring where it meets hooks off by %.3f mm RMS; said: %.3f mm\n",
+              1e3 * cell.ringError(r.pose.camera, c.arm_zeros_rad),
+              r.sigmas ? 1e3 * r.sigmas->workspace_m : 0.0);
+  if (c.zeros_used) {
+    printZeros(*c.zeros, cell.trueZeros());
+  }
+  std::fflush(stdout);
 }
 
 void runSeed(unsigned seed, int poses, double side_m) {
@@ -32,31 +70,9 @@ void runSeed(unsigned seed, int poses, double side_m) {
       1e3 * cube.axis_rms_m.y(), 1e3 * cube.axis_rms_m.z(), toString(cube.verdict.grade).c_str(),
       positionError(cube.fMc1, cell.trueCamera()), angleError(cube.fMc1, cell.trueCamera()));
   const auto views = cell.around(poses, seed);
-  const PlateCalibration c =
-      calibrateFromViews(views, EyeSetup::kEyeToHand, [](double, const std::string&) {});
-  const HandEyeResult& r = c.result;
-  std::printf(
-      "seed %u  %zu poses: residual %.3f mm %.4f deg, held out %.3f mm (%.3f per axis), "
-      "corners %.3f px, %.3f px with a perfect arm, rejected %zu, %s\n",
-      seed, views.size(), 1e3 * r.residual.translation_m, r.residual.rotation_rad * 57.29578,
-      1e3 * r.heldout.translation_m, 1e3 * r.heldout.translation_m / std::sqrt(3.0), c.rms_px,
-      c.arm_rms_px, r.rejected.size(), r.verdict.sentence.c_str());
-  std::printf("        camera off by %.3f mm %.4f deg, plate off by %.3f mm %.4f deg\n",
-              positionError(r.pose.camera, cell.trueCamera()),
-              angleError(r.pose.camera, cell.trueCamera()),
-              positionError(r.pose.target, RenderedCell::trueTarget()),
-              angleError(r.pose.target, RenderedCell::trueTarget()));
-  const JointZeros z = fitJointZeros(c.pairs, cell.joints(), rx60::rx60(), r);
-  std::printf(
-      "        with joint zeros: residual %.3f mm, held out %.3f mm, camera off by %.3f mm %.4f "
-      "deg, "
-      "zeros 2 to 5 %.4f %.4f %.4f %.4f deg, sigma %.4f %.4f %.4f %.4f\n",
-      1e3 * z.residual.translation_m, 1e3 * z.heldout.translation_m,
-      positionError(z.pose.camera, cell.trueCamera()), angleError(z.pose.camera, cell.trueCamera()),
-      57.29578 * z.zero_rad[1], 57.29578 * z.zero_rad[2], 57.29578 * z.zero_rad[3],
-      57.29578 * z.zero_rad[4], 57.29578 * z.sigma_rad[1], 57.29578 * z.sigma_rad[2],
-      57.29578 * z.sigma_rad[3], 57.29578 * z.sigma_rad[4]);
-  std::fflush(stdout);
+  for (const ZeroChoice choice : {ZeroChoice::kKeep, ZeroChoice::kWherePaying}) {
+    printViews(cell, views, seed, choice);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 //   stereo_rendered --views 25 --seed 1 [--out DIR]
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -24,7 +25,7 @@ struct Pictures {
 
 Pictures take(int count, std::uint64_t seed, const std::filesystem::path& out) {
   Pictures pictures;
-  renderViews(count, seed, [&](int i, const StereoFrame& frame) {
+  renderViews(workspaceBoard(), count, seed, seed, [&](int i, const StereoFrame& frame) {
     const std::string number = std::to_string(100 + i).substr(1) + ".png";
     if (!out.empty()) {
       writeGrayImage(out / ("left" + number), frame.left);
@@ -55,6 +56,23 @@ void compareLens(const char* name, const CameraModel& found, const CameraModel& 
   }
 }
 
+void compareBar(const StereoRig& found, const StereoRig& truth, std::uint64_t seed) {
+  constexpr int kPictures = 20;
+  const auto rms_mm = [](const std::vector<double>& errors) {
+    double sum = 0.0;
+    for (const double e : errors) {
+      sum += e * e;
+    }
+    return 1e3 * std::sqrt(sum / static_cast<double>(errors.size()));
+  };
+  const std::vector<double> errors = renderedBarErrors(found, kPictures, seed);
+  std::printf(
+      "200 mm between corners of another board in %d new pictures, %zu lengths, RMS error:\n",
+      kPictures, errors.size());
+  std::printf("  as found in the pictures                         %.4f mm   (true rig %.4f mm)\n",
+              rms_mm(errors), rms_mm(renderedBarErrors(truth, kPictures, seed)));
+}
+
 void compare(const StereoCalibration& c, std::uint64_t seed) {
   const StereoRig truth = trueCellRig(seed);
   for (const RejectedView& view : c.rejected) {
@@ -71,7 +89,9 @@ void compare(const StereoCalibration& c, std::uint64_t seed) {
     std::printf("   (sigma %.4f mm; focal lengths %.3f px)", 1e3 * c.uncertainty->baseline_m,
                 c.uncertainty->focal_px);
   }
-  std::printf("\n200 mm bar, RMS error of its length, 500 places, all directions:\n");
+  std::printf("\n");
+  compareBar(c.rig, truth, seed);
+  std::printf("200 mm bar, RMS error of its length, 500 places, all directions:\n");
   std::printf("  exact images: the calibration alone              %.4f mm\n",
               1e3 * barError(c.rig, truth, 0.0, seed));
   for (const double corner_px : {0.035, 0.05}) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -89,6 +90,9 @@ class WakeUps {
       next += kTick;
       std::this_thread::sleep_until(next);
       cycle();
+      // Half a tick later and not at once, so that neither finds caches and processor warmer.
+      std::this_thread::sleep_until(next + kTick / 2);
+      timeEcho();
     }
     done = true;
     for (int k = 0; k < 100; ++k) {  // the client stops the arm and goes
@@ -149,19 +153,25 @@ class WakeUps {
       controller_.receive(Rx60Socket::kMotion, bytes_);
       if (bytes_.size() == 48 && states.size() == 1) {
         ours_us_.push_back(us);
-        timeEcho(states.front());
+        echoed_ = states.front();
       }
     } else if (motion_.read(bytes_)) {
       controller_.receive(Rx60Socket::kMotion, bytes_);
     }
     bytes_.clear();
   }
-  void timeEcho(const rx60::Frame& frame) {
+  /// Once for every answer of the client.
+  void timeEcho() {
+    if (!echoed_) {
+      return;
+    }
     const auto sent = Clock::now();
-    echo_.nearEnd().write(frame.bytes());
+    echo_.nearEnd().write(echoed_->bytes());
     if (takeNext(echo_.nearEnd(), bytes_)) {
       echo_us_.push_back(microseconds(Clock::now() - sent));
     }
+    echoed_.reset();
+    bytes_.clear();
   }
 
   TcpListener motion_{"127.0.0.1", 0};
@@ -170,6 +180,7 @@ class WakeUps {
   KinematicPlant plant_{startPosition()};
   Rx60Controller controller_{plant_};
   Echo echo_;
+  std::optional<rx60::Frame> echoed_;
   Time now_;
   std::vector<std::byte> bytes_;
   std::vector<double> ours_us_;

@@ -183,6 +183,7 @@ InverseSolutions branches(const Geometry& geometry, const Pose& fMe) {
     const bool same_elbow = stretched && solution.elbow == Elbow::kNegative;
     const bool same_wrist = solution.wrist_singular && solution.wrist == Wrist::kNegative;
     if (!same_elbow && !same_wrist) {
+      solution.q = (solution.q - geometry.zero).unaryExpr(&wrapped);
       solutions.push_back(solution);
     }
   }

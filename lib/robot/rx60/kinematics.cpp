@@ -28,9 +28,9 @@ JointVector degrees(double j1, double j2, double j3, double j4, double j5, doubl
 
 }  // namespace
 
-Geometry rx60() { return {0.341, 0.049, 0.290, 0.310, 0.065}; }
+Geometry rx60() { return {0.341, 0.049, 0.290, 0.310, 0.065, JointVector::Zero()}; }
 
-Geometry rx60L() { return {0.341, 0.049, 0.400, 0.400, 0.065}; }
+Geometry rx60L() { return {0.341, 0.049, 0.400, 0.400, 0.065, JointVector::Zero()}; }
 
 JointLimits limits() {
   constexpr double kTimeToNominalSpeed = 0.25;      // [s], the assumptions named in the header
@@ -44,8 +44,9 @@ JointLimits limits() {
   return limits;
 }
 
-std::array<Pose, 6> linkFrames(const Geometry& g, const JointVector& q) {
+std::array<Pose, 6> linkFrames(const Geometry& g, const JointVector& reported) {
   constexpr double kQuarter = std::numbers::pi / 2.0;
+  const JointVector q = reported + g.zero;
   std::array<Pose, 6> frames;
   frames[0] = craigLink(0.0, 1.0, 0.0, g.base_height, q(0));
   frames[1] = frames[0] * craigLink(-1.0, 0.0, 0.0, 0.0, q(1) - kQuarter);

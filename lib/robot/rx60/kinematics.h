@@ -28,6 +28,9 @@ struct Geometry {
   double upper_arm;        ///< from the axis of joint 2 to that of joint 3 [m]
   double forearm;          ///< from the axis of joint 3 to the wrist centre [m]
   double flange;           ///< from the wrist centre to the flange [m]
+  /// True minus reported joint angles [rad], of an arm whose zeros were calibrated. All angles of
+  /// this file are reported ones, before and behind the law alike.
+  JointVector zero = JointVector::Zero();
 };
 
 Geometry rx60();

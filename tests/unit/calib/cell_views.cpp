@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "calib/solve/board_grid.h"
 #include "core/error.h"
 #include "sim/cell_world.h"
 #include "sim/nominal_rig.h"
@@ -56,13 +57,14 @@ Eigen::Vector3d measured(const StereoRig& rig, const Eigen::Vector2d& left,
 
 }  // namespace
 
+Board barBoard() { return parseBoard("chessboard:9x7:25mm"); }
+
 Board workspaceBoard() { return parseBoard("chessboard:14x10:30mm"); }
 
 StereoRig trueCellRig(std::uint64_t seed) { return disturbedRig(nominalRig(), seed); }
 
-void renderViews(int count, std::uint64_t seed,
+void renderViews(const Board& board, int count, std::uint64_t seed, std::uint64_t places_seed,
                  const std::function<void(int, const StereoFrame&)>& take) {
-  const Board board = workspaceBoard();
   CellOptions options;
   options.seed = seed;
   options.belt.speed = 0.0;
@@ -72,7 +74,7 @@ void renderViews(int count, std::uint64_t seed,
   SimCameraOptions camera_options;
   camera_options.rate_hz = 1.0 / kPeriod_s;
   SimStereoCamera camera(world, trueCellRig(seed), camera_options);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(places_seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d middle(0.65 + 0.15 * uniform(random), 0.24 * uniform(random),
@@ -88,6 +90,28 @@ void renderViews(int count, std::uint64_t seed,
     }
     take(i, *frame);
   }
+}
+
+std::vector<double> renderedBarErrors(const StereoRig& rig, int count, std::uint64_t seed) {
+  const Board board = barBoard();
+  std::vector<double> errors;
+  renderViews(board, count, seed, seed + 1000, [&](int /*i*/, const StereoFrame& frame) {
+    const auto left = findBoard(frame.left, board);
+    const auto right = findBoard(frame.right, board);
+    if (!left || !right || left->ids.size() != board.size() || right->ids.size() != board.size()) {
+      return;
+    }
+    const BoardSighting ordered = orderedLike(*left, *right, board);
+    for (int row = 0; row < board.rows; ++row) {
+      std::array<Eigen::Vector3d, 2> ends;
+      for (const int end : {0, 1}) {
+        const std::size_t k = gridIndex(board, row, end * (board.columns - 1));
+        ends[static_cast<std::size_t>(end)] = measured(rig, left->pixels[k], ordered.pixels[k]);
+      }
+      errors.push_back((ends[1] - ends[0]).norm() - kBar_m);
+    }
+  });
+  return errors;
 }
 
 double barError(const StereoRig& rig, const StereoRig& truth, double sigma_px, std::uint64_t seed) {

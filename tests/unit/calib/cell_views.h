@@ -28,8 +28,16 @@ StereoRig trueCellRig(std::uint64_t seed);
 /// Renders `count` pairs of full images with sensor noise, the board tilted up to 40 degrees in all
 /// directions at seeded places 0.95 to 1.25 m away, clear of arm and hooks; each is handed to
 /// `take` as it comes.
-void renderViews(int count, std::uint64_t seed,
+/// \param places_seed of where the board is held, apart from `seed` of cell and cameras.
+void renderViews(const Board& board, int count, std::uint64_t seed, std::uint64_t places_seed,
                  const std::function<void(int, const StereoFrame&)>& take);
+
+/// A bar as an integrator has it: `barBoard()`, 9x7 corners of 25 mm, whose rows are 200 mm long.
+Board barBoard();
+
+/// Errors of the lengths of `barBoard()`'s rows [m] in `count` pairs rendered anew, found in the
+/// pictures and triangulated by `rig`; pairs in which the board is not found are left out.
+std::vector<double> renderedBarErrors(const StereoRig& rig, int count, std::uint64_t seed);
 
 /// Root mean square error [m] of the length of a 200 mm bar, triangulated by `rig` from its ends'
 /// images in `truth`: 500 seeded places x_f 0.42 +- 0.1, y_f +- 0.3, z_f 0.6 to 1.0, directions all

@@ -12,7 +12,7 @@ namespace {
 
 TEST(RenderedRig, IsFoundFromTenPairsOfPictures) {
   StereoViews views;
-  renderViews(10, 1, [&](int i, const StereoFrame& frame) {
+  renderViews(workspaceBoard(), 10, 1, 1, [&](int i, const StereoFrame& frame) {
     const auto left = findBoard(frame.left, workspaceBoard());
     const auto right = findBoard(frame.right, workspaceBoard());
     if (left && right) {

@@ -44,7 +44,8 @@ TEST(FrankaSet, AgreesWithThePublishedPoseAndLeavesLess) {
   const StepHook quiet = [](double, const std::string&) {};
   const FoundPlates found = findPlates(images, publishedRig(), publishedTag(), quiet);
   ASSERT_EQ(found.views.size(), 8U);
-  const PlateCalibration c = calibrateFromViews(found.views, EyeSetup::kEyeToHand, quiet);
+  const PlateCalibration c =
+      calibrateFromViews(found.views, EyeSetup::kEyeToHand, ZeroChoice::kWherePaying, quiet);
   const Pose published =
       makePoseThetaU({0.9540358, -0.0512357, 0.4762201}, {-1.1041081, -1.1127456, 1.2895409});
   const Pose& fMc1 = c.result.pose.camera;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace ringhook {
 namespace {
@@ -52,12 +53,36 @@ TEST(JointZeros, ComeOutWithTheirUncertaintyInBothSetups) {
       EXPECT_NEAR(found.zero_rad[k], made.zero[k], 4.0 * found.sigma_rad[k]) << k;
       EXPECT_LT(found.sigma_rad[k], 1e-4) << k;
     }
-    EXPECT_GT(found.sigma_rad[0], 0.5 * kJointZeroPrior);
-    EXPECT_GT(found.sigma_rad[5], 0.5 * kJointZeroPrior);
+    EXPECT_EQ(found.zero_rad[0], 0.0);
+    EXPECT_EQ(found.zero_rad[5], 0.0);
     EXPECT_LT(found.heldout.translation_m, plain.heldout.translation_m);
     EXPECT_LT(found.heldout.translation_m, 1.4 * std::sqrt(3.0) * 0.00003);  // noise is left
     EXPECT_LT(found.residual.translation_m, 0.00007);
   }
+}
+
+// Errors of pairs left out, without zeros and with them.
+std::pair<std::vector<PairError>, std::vector<PairError>> judged(double noise_m,
+                                                                 const JointVector& zero) {
+  MadeArm made = makeArm(EyeSetup::kEyeToHand, noise_m);
+  for (std::size_t i = 0; i < made.pairs.size(); ++i) {
+    made.joints[i] += made.zero - zero;
+    made.pairs[i].fMe = rx60::forward(rx60::rx60(), made.joints[i]);
+  }
+  const auto plain =
+      calibrateRobotCamera(made.pairs, EyeSetup::kEyeToHand, [](double, const std::string&) {});
+  const JointZeros found = fitJointZeros(made.pairs, made.joints, rx60::rx60(), plain);
+  return {plain.left_out, found.left_out};
+}
+
+TEST(JointZeros, PayOnlyWhereThereAreErrorsAboveTheNoise) {
+  JointVector zero;
+  zero << 0, -6e-4, 5e-4, 7e-4, -8e-4, 0;
+  const auto [plain, with] = judged(0.00003, zero);
+  EXPECT_TRUE(zerosPay(plain, with));
+  const auto [plain_noise, with_noise] = judged(0.0003, JointVector::Zero());
+  EXPECT_FALSE(zerosPay(plain_noise, with_noise));
+  EXPECT_FALSE(zerosPay(with, with));
 }
 
 TEST(JointZeros, AreZeroForAnArmWithoutErrors) {

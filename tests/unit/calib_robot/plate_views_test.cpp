@@ -58,7 +58,8 @@ MadeViews madeViews(unsigned seed, bool stereo, double arm_m, double arm_rad) {
 }
 
 PlateCalibration calibrate(const std::vector<PlateView>& views) {
-  return calibrateFromViews(views, EyeSetup::kEyeToHand, [](double, const std::string&) {});
+  return calibrateFromViews(views, EyeSetup::kEyeToHand, ZeroChoice::kKeep,
+                            [](double, const std::string&) {});
 }
 
 double cameraError(const PlateCalibration& c, const MadeViews& made) {

@@ -2,7 +2,9 @@
 
 #include "core/error.h"
 #include "rig/rectifier.h"
+#include "robot/rx60/kinematics.h"
 #include "sim/arm_visuals.h"
+#include "sim/cell_draw.h"
 #include "sim/nominal_rig.h"
 #include "sim/scenario.h"
 #include "stereo/triangulation.h"
@@ -74,13 +76,12 @@ std::vector<PlateView> RenderedCell::around(int count, std::uint64_t seed) {
     return most * (2.0 * static_cast<double>(dice() >> 11U) * 0x1p-53 - 1.0);
   };
   std::vector<PlateView> views;
-  joints_.clear();
   for (int tries = 0; tries < 20 * count && static_cast<int>(views.size()) < count; ++tries) {
     const Vector3d place(0.30 + draw(0.10), draw(0.18), 0.62 + draw(0.12));
     const Vector3d turn(draw(0.6), draw(0.6), draw(0.6));
     if (auto view = look(facing(place, turn))) {
       view->name = "pose " + std::to_string(views.size());
-      joints_.push_back(place_->armState()->position);
+      view->joints = place_->armState()->position;
       views.push_back(*view);
     }
   }
@@ -121,5 +122,38 @@ Pose RenderedCell::trueCamera() const {
 }
 
 Pose RenderedCell::trueTarget() { return eMg(); }
+
+JointVector RenderedCell::trueZeros() const {
+  CellOptions options = loadScenario(easyCell().devices.scenario).cell;
+  options.seed = seed_;
+  return drawCell(options).zero_error;
+}
+
+double RenderedCell::ringError(const Pose& fMc1, const JointVector& zeros_rad) const {
+  constexpr int kPlaces = 200;
+  const CellConfig cell = easyCell();
+  rx60::Geometry real = rx60::rx60();
+  rx60::Geometry found = rx60::rx60();
+  real.zero = trueZeros();
+  found.zero = zeros_rad;
+  const Pose standby = rx60::forward(rx60::rx60(), cell.arm.standby_rad);
+  std::mt19937_64 dice(seed_);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double sum = 0.0;
+  for (int places = 0; places < kPlaces;) {
+    Pose fMe = standby;  // travel along the belt, height, swing
+    fMe.translation() += Vector3d(0.05 * unit(dice), 0.3 * unit(dice), 0.1 * unit(dice));
+    fMe.linear() *= makePoseThetaU(Vector3d::Zero(), {0.15 * unit(dice), 0, 0}).linear();
+    const auto q = rx60::nearestInverse(rx60::rx60(), rx60::limits(), fMe, cell.arm.standby_rad);
+    if (!q) {
+      continue;  // beyond the arm's reach
+    }
+    const Pose told = fMc1.inverse() * rx60::forward(found, *q) * cell.arm.eMr;
+    const Pose is = trueCamera().inverse() * rx60::forward(real, *q) * cell.arm.eMr;
+    sum += (told.translation() - is.translation()).squaredNorm();
+    ++places;
+  }
+  return std::sqrt(sum / kPlaces);
+}
 
 }  // namespace ringhook

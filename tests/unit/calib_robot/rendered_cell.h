@@ -37,17 +37,18 @@ class RenderedCell {
   /// triangulate it.
   static std::vector<PointPair> pointsOf(const std::vector<PlateView>& views);
 
-  /// Reported joints of the views that `around` returned last [rad].
-  [[nodiscard]] const std::vector<JointVector>& joints() const { return joints_; }
-
   [[nodiscard]] Pose trueCamera() const;   ///< fMc1, where the left camera really stands
   [[nodiscard]] static Pose trueTarget();  ///< eMg by drawing
+  [[nodiscard]] JointVector trueZeros() const;
+
+  /// What a calibration is for: RMS distance [m] between where a ring in the gripper is and where
+  /// camera and arm say it is, both in the left camera, over places where rings meet hooks.
+  [[nodiscard]] double ringError(const Pose& fMc1, const JointVector& zeros_rad) const;
 
  private:
   std::uint64_t seed_;
   StereoRig told_;
   std::unique_ptr<CalibrationPlace> place_;
-  std::vector<JointVector> joints_;
 };
 
 }  // namespace ringhook

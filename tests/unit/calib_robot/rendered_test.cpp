@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calib/solve/joint_zeros.h"
 #include "rendered_cell.h"
 
 namespace ringhook {
@@ -18,16 +17,24 @@ TEST(RenderedRobotCamera, CubeLeavesLessThanTheReportsTwoMillimetres) {
   EXPECT_NE(fit.verdict.grade, Grade::kPoor) << fit.verdict.sentence;
 }
 
-TEST(RenderedRobotCamera, PosesPredictOthersOnceTheJointZerosAreKnown) {
+TEST(RenderedRobotCamera, PosesPredictOthersByTheArmWithItsJointZerosCorrected) {
   RenderedCell cell(1);  // of the first seeds the one with the worst arm
   const auto views = cell.around(16, 1);
   ASSERT_EQ(views.size(), 16U);
-  const PlateCalibration c =
-      calibrateFromViews(views, EyeSetup::kEyeToHand, [](double, const std::string&) {});
+  const auto calibrate = [&views](ZeroChoice choice) {
+    return calibrateFromViews(views, EyeSetup::kEyeToHand, choice,
+                              [](double, const std::string&) {});
+  };
+  const PlateCalibration plain = calibrate(ZeroChoice::kKeep);
+  const PlateCalibration c = calibrate(ZeroChoice::kWherePaying);
   EXPECT_NE(c.result.verdict.grade, Grade::kPoor) << c.result.verdict.sentence;
-  const JointZeros zeros = fitJointZeros(c.pairs, cell.joints(), rx60::rx60(), c.result);
-  EXPECT_LT(zeros.heldout.translation_m, c.result.heldout.translation_m);
-  EXPECT_LE(1e3 * zeros.heldout.translation_m, 0.15);
+  EXPECT_FALSE(plain.zeros_used);
+  EXPECT_TRUE(c.zeros_used);
+  EXPECT_LE(1e3 * c.result.heldout.translation_m, 0.15);
+  EXPECT_GT(1e3 * c.plain_heldout.translation_m, 0.2);
+  const double ring_m = cell.ringError(c.result.pose.camera, c.arm_zeros_rad);
+  EXPECT_LE(1e3 * ring_m, 0.3);
+  EXPECT_LT(ring_m, 0.8 * cell.ringError(plain.result.pose.camera, JointVector::Zero()));
   const Eigen::Vector3d plate = c.result.pose.target.translation();
   EXPECT_LT(1e3 * (plate - RenderedCell::trueTarget().translation()).norm(), 0.5);
 }

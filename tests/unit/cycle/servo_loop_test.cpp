@@ -107,7 +107,7 @@ class LoopBench {
       : arm(script, test::defaultCell().arm.load_rad),
         cell_(test::defaultCell()),
         vision_(cell_, test::coarseRig(cell_), TrackerKind::kMarker),
-        task_(cell_),
+        task_(cell_, rx60::rx60()),
         camera_(script),
         observer_(script) {}
 

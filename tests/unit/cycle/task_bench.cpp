@@ -35,7 +35,7 @@ HookFilterOptions filterOptions(const CellConfig& cell) {
 TaskBench::TaskBench(const CellConfig& the_cell, const MovingHook& the_hook)
     : cell(the_cell),
       hook(the_hook),
-      task(the_cell),
+      task(the_cell, rx60::rx60()),
       fMc1_(camera()),
       filter_(filterOptions(cell)) {
   state_.position = cell.arm.load_rad;

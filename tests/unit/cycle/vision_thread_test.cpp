@@ -164,7 +164,7 @@ TEST_F(VisionThreadTest, RestartSetsTheSearchWindowsWithoutAFrame) {
 TEST_F(VisionThreadTest, AFailureOfTheCameraComesOutWhereTheArmIsStopped) {
   VisionThread vision(camera, step, seen);
   PatientArm arm;
-  TaskControl task(cell);
+  TaskControl task(cell, rx60::rx60());
   const std::atomic<bool> never = false;
   camera.unplug();
   EXPECT_THROW((void)runAttempt(vision, arm, task, seen, never), DeviceError);

@@ -57,6 +57,7 @@ TEST_F(RigFile, KeepsEveryFieldThroughSaveAndLoad) {
   rig.camera_delay_s = 0.008;
   rig.rms_px = 0.21;
   rig.heldout_vertical_disparity_px = 0.16;
+  rig.joint_zeros_rad << 0.0, 4e-4, -6e-4, 5e-4, -8e-4, 0.0;
   rig.board = "chessboard:9x6:25mm";
   rig.views = 13;
   rig.date = "2026-01-31";
@@ -67,6 +68,7 @@ TEST_F(RigFile, KeepsEveryFieldThroughSaveAndLoad) {
   EXPECT_EQ(back.right->distortion, rig.right->distortion);
   EXPECT_TRUE(back.c2Mc1.isApprox(rig.c2Mc1, 1e-14));
   EXPECT_TRUE(back.fMc1->isApprox(*rig.fMc1, 1e-14));
+  EXPECT_TRUE(back.joint_zeros_rad.isApprox(rig.joint_zeros_rad, 1e-14));
   EXPECT_DOUBLE_EQ(back.robot_delay_s, 0.004);
   EXPECT_DOUBLE_EQ(back.camera_delay_s, 0.008);
   EXPECT_EQ(back.rms_px, 0.21);
@@ -129,6 +131,23 @@ TEST_F(RigFile, NamesMissingAndIllShapedKeys) {
   EXPECT_THAT(edited("robot_delay_ms: 0.", "robot_delay_ms: .Nan"), HasSubstr("robot_delay_ms"));
   EXPECT_THAT(edited("data: [ 6.2463999999999999e+02", "data: [ -6.2463999999999999e+02"),
               HasSubstr("positive focal"));
+}
+
+TEST_F(RigFile, HoldsJointZerosOnlyIfThereAreAny) {
+  StereoRig rig = test::sampleRig();
+  saveRig(path_, rig);
+  EXPECT_THAT(readAll(path_), testing::Not(testing::HasSubstr("joint_zeros_deg")));
+  rig.joint_zeros_rad.setConstant(0.01);
+  saveRig(path_, rig);
+  const std::string text = readAll(path_);
+  EXPECT_THAT(text, testing::HasSubstr("joint_zeros_deg"));
+  edit("joint_zeros_deg: !!opencv-matrix\n   rows: 6",
+       "joint_zeros_deg: !!opencv-matrix\n   rows: 5");
+  EXPECT_THAT(refusal(), testing::HasSubstr("joint_zeros_deg"));
+  write(text);
+  edit("joint_zeros_deg: !!opencv-matrix\n   rows: 6\n   cols: 1\n   dt: d\n   data: [ ",
+       "joint_zeros_deg: !!opencv-matrix\n   rows: 6\n   cols: 1\n   dt: d\n   data: [ 9");
+  EXPECT_THAT(refusal(), testing::HasSubstr("six angles below 5 degrees"));
 }
 
 TEST_F(RigFile, RefusesWhatIsNoRig) {

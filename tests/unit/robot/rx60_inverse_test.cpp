@@ -216,6 +216,20 @@ TEST(Rx60NearestInverse, SaysByHowMuchTheLimitsAreBroken) {
   EXPECT_THAT(refused.reason(), HasSubstr("J1 by 5.7 deg"));
 }
 
+TEST(Rx60NearestInverse, OfAnArmWithCorrectedZerosAnswersInReportedJoints) {
+  Geometry arm = rx60();
+  arm.zero = joints(0.01, -0.02, 0.015, 0.03, -0.01, 0.02);
+  JointSamples samples(15);
+  for (int i = 0; i < 1000; ++i) {
+    const JointVector q = 0.9 * samples.within(limits());
+    const Pose fMe = forward(arm, q);
+    EXPECT_TRUE(fMe.isApprox(forward(rx60(), q + arm.zero), 1e-14));
+    const auto nearest = nearestInverse(arm, limits(), fMe, q);
+    ASSERT_TRUE(nearest) << nearest.reason();
+    EXPECT_LT((*nearest - q).cwiseAbs().maxCoeff(), 1e-7);
+  }
+}
+
 TEST(Rx60NearestInverse, StaysWithinTheLimitsForAnyReachablePose) {
   JointSamples samples(14);
   for (int i = 0; i < 5000; ++i) {
