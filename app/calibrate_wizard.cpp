@@ -4,16 +4,12 @@
 #include <string>
 
 #include "app/calibrate_job.h"
-#include "app/interrupt.h"
+#include "app/dialogue.h"
 #include "app/options.h"
 #include "calib/wizard/wizard.h"
-#include "core/error.h"
 
 namespace ringhook {
 namespace {
-
-constexpr int kInput = 0;   // standard input
-constexpr int kOutput = 1;  // standard output
 
 struct WizardArguments {
   std::string session = "out/wizard";
@@ -32,20 +28,7 @@ std::optional<T> unlessEmpty(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional<T>(text);
 }
 
-/// Each long computation gets a progress line of its own; the hook keeps it alive.
-StepHook progressHook(const std::string& what) {
-  auto progress = std::make_shared<Progress>(what);
-  return [progress, hook = hookFor(*progress)](double fraction, const std::string& note) {
-    hook(fraction, note);
-  };
-}
-
 void runCommand(const WizardArguments& arguments) {
-  const auto check = [] {
-    if (interruptRequested()) {
-      throw Interrupted("stopped by the operator; the same command goes on from here");
-    }
-  };
   WizardOptions options;
   options.session = arguments.session;
   options.cell = unlessEmpty<std::filesystem::path>(arguments.cell);
@@ -59,8 +42,8 @@ void runCommand(const WizardArguments& arguments) {
   options.accepted_rigs = arguments.rigs;
   options.date = utcDate();
   options.version = RINGHOOK_VERSION;
-  Console console(kInput, kOutput, check);
-  runWizard(options, console, progressHook, check);
+  Console console = terminal();
+  runWizard(options, console, progressOf, leaveIfAsked);
 }
 
 }  // namespace

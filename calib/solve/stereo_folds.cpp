@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kLargestLeaveOneOut = 20;
 constexpr std::size_t kFolds = 10;
+constexpr double kSmallGain = 0.02;  // of the mean square: one hundredth of the RMS
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -138,7 +139,8 @@ std::size_t chooseByOneStandardError(const std::vector<std::vector<double>>& squ
       scatter += (e - average) * (e - average);
     }
     const auto n = static_cast<double>(excess.size());
-    if (average <= std::sqrt(scatter / (n * std::max(1.0, n - 1.0)))) {
+    const double standard_error = std::sqrt(scatter / (n * std::max(1.0, n - 1.0)));
+    if (average <= std::max(standard_error, kSmallGain * mean(squares[best]))) {
       return i;
     }
   }

@@ -6,9 +6,10 @@
 ///
 /// Choice: the candidate with the least held-out square error is best; but a simpler one is taken
 /// if its excess over the best, averaged over the views, is within one standard error of that
-/// average (the one-standard-error rule: Breiman et al., "Classification and Regression Trees",
-/// 1984, section 3.4.3; Hastie, Tibshirani, Friedman, "The Elements of Statistical Learning", 2009,
-/// section 7.10; here with the differences of the same views, which share their noise).
+/// average, or below two hundredths of the best (the one-standard-error rule: Breiman et al.,
+/// "Classification and Regression Trees", 1984, section 3.4.3; Hastie, Tibshirani, Friedman, "The
+/// Elements of Statistical Learning", 2009, section 7.10; here with the differences of the same
+/// views, which share their noise).
 
 #include <cstddef>
 #include <vector>

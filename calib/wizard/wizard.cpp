@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "calib/wizard/board_pairs.h"
 #include "calib/wizard/shot_folder.h"
 #include "calib/wizard/steps.h"
 #include "core/error.h"
@@ -141,6 +142,19 @@ const std::vector<std::string>& wizardSteps() {
     return all;
   }();
   return names;
+}
+
+StereoViews takeBoardPairs(const WizardOptions& options, Console& console,
+                           const HookMaker& progress, const std::function<void()>& check) {
+  const Session session(options.session);
+  const WizardAnswers answers = answersFor(options, session, console);
+  LiveView view(session.file("live.png"), options.window && LiveView::displayAtHand());
+  WizardContext context(console, session, answers, view, progress, check);
+  console.say("Every pair of pictures is kept in " + session.file("board").string() +
+              " and shown in " + session.file("live.png").string() + ".");
+  BoardPairsOptions pairs;
+  pairs.part = "board";
+  return takeBoardPairs(context, pairs);
 }
 
 void runWizard(const WizardOptions& options, Console& console, const HookMaker& progress,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/solve/stereo_images.h"
 #include "calib/wizard/context.h"
 
 namespace ringhook {
@@ -32,6 +33,12 @@ struct WizardOptions {
 
 /// Names of the steps that --again and --until take: stereo, robot, time, check.
 const std::vector<std::string>& wizardSteps();
+
+/// The pictures of the first step alone: pairs of a board from the cell's cameras, taken as the
+/// wizard takes them and kept in `options.session`, which the wizard can go on with. Throws as
+/// runWizard does.
+StereoViews takeBoardPairs(const WizardOptions& options, Console& console,
+                           const HookMaker& progress, const std::function<void()>& check);
 
 /// Throws InputError for bad answers on the command line, Interrupted when the integrator leaves,
 /// Error if a step cannot be brought to a good end, DeviceError.

@@ -130,6 +130,11 @@ TEST(StereoCalibration, TakesTheSimplerLensWithinOneStandardError) {
   EXPECT_EQ(chooseByOneStandardError({simple, same}), 0U);
   EXPECT_EQ(chooseByOneStandardError({simple, better}), 1U);
   EXPECT_EQ(chooseByOneStandardError({simple, better, better}), 1U);
+  std::vector<double> hardly = simple;  // always better, but by a thousandth
+  for (double& square : hardly) {
+    square *= 0.998;
+  }
+  EXPECT_EQ(chooseByOneStandardError({simple, hardly}), 0U);
 }
 
 // The known board bent to a bowl 1 mm deep, which the calibration is told is flat.
