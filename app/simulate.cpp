@@ -129,6 +129,11 @@ void addCellOptions(CLI::App& command, CellJob& cell) {
       ->check(CLI::Range(1, 100))
       ->group(group);
   command
+      .add_flag("--belt-parked", cell.belt_parked,
+                "The belt stands still and empty, as for calibrating")
+      ->excludes("--hooks")
+      ->group(group);
+  command
       .add_option("--lost-packets", cell.lost_packets,
                   "Share of the cameras' packets that are lost on the way")
       ->type_name("SHARE")

@@ -44,6 +44,9 @@ CellOptions worldOptions(const CellJob& job, const Scenario& scenario) {
   }
   options.ring.count = options.hook.count;  // more would lie about and cost time
   options.physics_step = kLivePhysicsStep;
+  if (job.belt_parked) {
+    parkBelt(options);
+  }
   return options;
 }
 
@@ -149,9 +152,10 @@ nlohmann::ordered_json serveCell(const CellJob& job) {
   sayWhere(server.arm(), cell.devices.arm.address);
   std::fprintf(stderr,
                "simulated cameras answer at %s and %s, port 3956\n"
-               "scenario %s, seed %llu; the belt starts when the arm's client connects\n",
+               "scenario %s, seed %llu; the belt %s\n",
                cell.devices.cameras.left.c_str(), cell.devices.cameras.right.c_str(),
-               scenario.name.c_str(), static_cast<unsigned long long>(job.seed));
+               scenario.name.c_str(), static_cast<unsigned long long>(job.seed),
+               job.belt_parked ? "is parked" : "starts when the arm's client connects");
   server.run(interruptRequested(), job.seconds);
   if (log) {
     log->commit();

@@ -18,6 +18,7 @@ struct CellJob {
   std::string scenario;       ///< name beside the cell's own; empty for the cell's own
   std::uint64_t seed = 1;     ///< of everything random
   int hooks = 0;              ///< on the belt, with a ring each; 0: as the scenario says
+  bool belt_parked = false;   ///< no hooks, nothing moves but the arm: for calibrating
   double lost_packets = 0.0;  ///< share of image packets that are not sent
   double seconds = 0.0;       ///< how long to serve once a client has come [s]
   std::string truth;          ///< folder for the truth; empty: none

@@ -24,6 +24,7 @@ constexpr double kFindPatience = 10.0;      // for the images of that [s],
 constexpr int kFindFrames = 10;             // and for the plate in them
 constexpr double kLead = 0.3;               // standing still in sight before and after [s]
 constexpr double kGainPerS = 3.0;           // of what the arm lacks of the wiggle
+constexpr double kWayStep = 0.02;           // [s]
 constexpr int kMissesLost = 5;              // frames in a row
 constexpr std::size_t kFramesWaiting = 64;  // for the disk
 
@@ -52,8 +53,9 @@ class WatchedWiggle {
 
   void keepIn(std::unique_ptr<SequenceRecorder> recorder) { recorder_ = std::move(recorder); }
 
-  /// Whether both cameras see the plate, the arm at rest; the reason if not.
-  std::string find() {
+  /// Whether both cameras see the plate, the arm at rest; the reason if not. From then on the
+  /// cameras read what it will pass through.
+  std::string find(const WiggleOptions& options) {
     std::string reason = "no images came";
     aim(kFindRate);
     const Time begin = devices_.arm.waitState().time;
@@ -68,6 +70,7 @@ class WatchedWiggle {
         const Outcome<HookView> view = watch_.see(*frame);
         ++frames;
         if (view) {
+          watch_.watchOver(wayOf(*view, devices_.arm.waitState().position, options));
           aim(kWatchRate);
           return {};
         }
@@ -96,7 +99,9 @@ class WatchedWiggle {
       const double unseen_s = state.time - last_seen_;
       if ((misses_ >= kMissesLost && unseen_s > kPlateLost) || unseen_s > kPlateLostAtLatest) {
         throw Error("the cameras lost sight of the gripper's plate (" + lost_ +
-                    "): the arm was stopped");
+                    "): the arm was stopped; the belt has to stand still and nothing may pass in "
+                    "front of the "
+                    "plate");
       }
     }
     devices_.arm.commandVelocity(JointVector::Zero());
@@ -107,6 +112,19 @@ class WatchedWiggle {
   }
 
  private:
+  /// Poses of the plate in the left camera during the wiggle, from where it is seen at rest.
+  [[nodiscard]] std::vector<Pose> wayOf(const HookView& view, const JointVector& rest,
+                                        const WiggleOptions& options) const {
+    const Pose c1Mf = record_.motion.fMc1.inverse();
+    const Pose eMo = rx60::forward(arm_, rest).inverse() * record_.motion.fMc1 * view.c1Mo_start;
+    const Wiggle wiggle(rest, options);
+    std::vector<Pose> way;
+    for (double t = 0.0; t <= wiggle.seconds(); t += kWayStep) {
+      way.push_back(c1Mf * rx60::forward(arm_, wiggle.at(t).position) * eMo);
+    }
+    return way;
+  }
+
   void aim(double rate_hz) {
     devices_.camera.setWindows(watch_.windows()[0], watch_.windows()[1]);
     devices_.camera.setFrameRate(rate_hz);
@@ -145,7 +163,6 @@ class WatchedWiggle {
         lost_ = view.reason();
         ++misses_;
       }
-      devices_.camera.setWindows(watch_.windows()[0], watch_.windows()[1]);
       if (recorder_) {
         recorder_->addFrame(std::move(*frame), std::nullopt);
       }
@@ -216,7 +233,7 @@ Outcome<WiggleRecord> recordWiggle(CalibrationPlace& place, const CellConfig& ce
   const QuietCamera quiet{devices->camera};
   try {
     WatchedWiggle wiggle(*devices, cell, rig, plate, step);
-    if (const std::string reason = wiggle.find(); !reason.empty()) {
+    if (const std::string reason = wiggle.find(options); !reason.empty()) {
       return Refusal{"the gripper's plate is not seen at the standby pose: " + reason};
     }
     wiggle.keepIn(recorderFor(keep, place, rig));

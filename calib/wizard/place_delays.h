@@ -2,8 +2,8 @@
 
 /// \file
 /// Delays of a cell's cameras and arm: the arm wiggles (place_wiggle.h), the cameras watch the
-/// plate on its gripper with windows that follow it, and the one motion is laid over the other
-/// (calib/solve/time_delay.h, where it also stands what can be known and what cannot).
+/// plate on its gripper through windows that hold its whole way, and the one motion is laid over
+/// the other (calib/solve/time_delay.h, where it also stands what can be known and what cannot).
 ///
 /// Safety: the motion is small and begins where the arm waits for hooks. A plate that is not seen
 /// for kPlateLost, a device that fails, a limit, Ctrl-C: whatever is thrown, the arm is stopped

@@ -1,12 +1,12 @@
 #pragma once
 
 /// \file
-/// Sees a tag plate in the frames of a place and says which windows to read next: the whole images
-/// until it is found, then windows of one size that follow it, since a camera keeps its window's
-/// size while it streams.
+/// Sees a tag plate in the frames of a place and says which windows to read: the whole images until
+/// it is found, then one window a camera that holds all of a motion known beforehand. A window that
+/// followed the plate would have to act in time, and on a network it acts frames later.
 
 #include <array>
-#include <optional>
+#include <vector>
 
 #include "core/hook_values.h"
 #include "core/outcome.h"
@@ -27,17 +27,15 @@ class PlateWatch {
 
   /// To be read next, left and right, in the full image [px].
   [[nodiscard]] const std::array<Window, 2>& windows() const { return windows_; }
-  /// Forgets where the plate was.
-  void restart();
+  /// From now on the windows hold the plate at all these poses in the left camera.
+  void watchOver(const std::vector<Pose>& c1Mo);
 
  private:
-  void follow(const HookView& view);
-
+  TagPlate plate_;
   Rectifier rectifier_;
   MarkerTracker tracker_;
   Window full_;
   std::array<Window, 2> windows_;
-  int misses_ = 0;
 };
 
 /// The plate of a file in its own frame: an oMk that the file gives is left out.

@@ -10,21 +10,12 @@
 namespace ringhook {
 namespace {
 
-constexpr double kOutOfView = -4.0;  // where the hooks hang along y_f [m]
-
 /// The scenario's cell, made for pictures of things that stand still.
 CellOptions stillCell(const CellConfig& cell, const Scenario& scenario,
                       const SimulatedPlaceOptions& chosen) {
   CellOptions options = scenario.cell;
   options.seed = chosen.seed;
-  options.belt.speed = 0.0;
-  options.belt.profile.reset();
-  options.belt.stops = 0;
-  options.belt.start_y = kOutOfView;
-  options.belt.entry_y = 0.0;
-  options.hook.count = 1;
-  options.ring.count = 1;
-  options.scene.occluder.count = 0;
+  parkBelt(options);
   options.scene.board = {chosen.board.columns, chosen.board.rows, chosen.board.square_m,
                          Pose::Identity()};
   options.arm.initial_joints = cell.arm.standby_rad;

@@ -109,4 +109,18 @@ struct CellOptions {
   SceneOptions scene;
 };
 
+/// A belt that stands still with its hook out of everybody's sight, as for calibrating: nothing
+/// passes in front of the cameras, nothing throws its shadow.
+inline void parkBelt(CellOptions& options) {
+  constexpr double kOutOfView = -4.0;  // y_f [m]
+  options.belt.speed = 0.0;
+  options.belt.profile.reset();
+  options.belt.stops = 0;
+  options.belt.start_y = kOutOfView;
+  options.belt.entry_y = 0.0;
+  options.hook.count = 1;
+  options.ring.count = 1;
+  options.scene.occluder.count = 0;
+}
+
 }  // namespace ringhook

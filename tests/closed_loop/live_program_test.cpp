@@ -33,10 +33,14 @@ class LivePrograms : public ::testing::Test {
     if (!test::ownNetwork().empty()) {
       GTEST_SKIP() << test::ownNetwork();
     }
-    cell_ = std::make_unique<test::Program>(
-        scratch_.path(), std::vector<std::string>{"simulate", "--cell", kCell, "--json",
-                                                  "cell.json", "--truth", "truth"});
+    serve({"--truth", "truth"});
     ASSERT_TRUE(cell_->waitUntilItSays("the belt starts when"));
+  }
+
+  void serve(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"simulate", "--cell", kCell, "--json", "cell.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    cell_ = std::make_unique<test::Program>(scratch_.path(), arguments);
   }
 
   ScratchFolder scratch_;
@@ -61,6 +65,34 @@ TEST_F(LivePrograms, CtrlCStopsTheArmOverTheWireThenSaves) {
   EXPECT_THAT(served.out, HasSubstr("0 rings hang"));
   EXPECT_GT(jsonOf(scratch_.path() / "cell.json").at("received").at("VELOCITY_CMD"), 0);
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "truth" / "hooks.csv"));
+}
+
+/// The same without hooks and motion.
+class ParkedPrograms : public LivePrograms {
+ protected:
+  void SetUp() override {
+    if (!test::ownNetwork().empty()) {
+      GTEST_SKIP() << test::ownNetwork();
+    }
+    serve({"--belt-parked"});
+    ASSERT_TRUE(cell_->waitUntilItSays("the belt is parked"));
+  }
+};
+
+TEST_F(ParkedPrograms, CtrlCEndsTheWigglingOfARealArmAndWritesNothing) {
+  test::Program time(scratch_.path(), {"calibrate", "time", "--cell", kCell, "--yes", "--out",
+                                       "rig.yaml", "--json", "time.json"});
+  ASSERT_TRUE(time.waitUntilItSays("watching the arm: 20 %")) << time.saidSoFar();
+  time.signal(SIGINT);
+  const test::ProgramResult stopped = time.wait();
+  EXPECT_EQ(stopped.exit_code, 1) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("stopped by the operator"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "rig.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "time.json"));
+  ASSERT_TRUE(cell_->waitUntilItSays("motion: client gone"));
+  cell_->signal(SIGINT);
+  EXPECT_EQ(cell_->wait().exit_code, 0);
+  EXPECT_GT(jsonOf(scratch_.path() / "cell.json").at("received").at("VELOCITY_CMD"), 0);
 }
 
 TEST_F(LivePrograms, ACellThatGoesAwayStopsTheRunWithItsReason) {
