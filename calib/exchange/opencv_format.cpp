@@ -1,35 +1,17 @@
 // intrinsics.yml and extrinsics.yml of OpenCV's sample stereo_calib, or one file with all keys.
 
-#include <fstream>
 #include <opencv2/core.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "calib/exchange/formats.h"
 #include "core/error.h"
-#include "core/file_kind.h"
 #include "rig/opencv_keys.h"
+#include "rig/opencv_text.h"
 
 namespace ringhook::exchange {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string readText(const fs::path& path) {
-  if (!isFile(path)) {
-    throw InputError(path.string() + ": no such file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  std::string text = content.str();
-  const bool known = text.starts_with("%YAML") || text.starts_with("<?xml");
-  if (!known || text.find('\0') != std::string::npos) {
-    throw InputError(path.string() +
-                     ": is not an OpenCV file, whose first line is %YAML:1.0 or <?xml ...>");
-  }
-  return text;
-}
 
 /// Coefficients; OpenCV's twelve and fourteen only if the ones that we do not have are zero.
 Eigen::VectorXd coefficients(const OpenCvKeys& keys, const std::string& key) {
@@ -73,7 +55,7 @@ void readPose(const OpenCvKeys& keys, const ImportHints& hints, StereoRig& rig) 
 
 template <class Read>
 void withKeys(const fs::path& path, Read read) {
-  const std::string text = readText(path);
+  const std::string text = readOpenCvText(path, OpenCvSyntax::kYamlOrXml);
   try {
     const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!file.isOpened() || !file.root().isMap()) {

@@ -1,14 +1,12 @@
 #include <Eigen/SVD>
-#include <fstream>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/file_kind.h"
 #include "rig/opencv_keys.h"
+#include "rig/opencv_text.h"
 #include "rig/stereo_rig.h"
 #include "rig/unknown_entries.h"
 
@@ -18,20 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-std::string readText(const fs::path& path) {
-  if (!isFile(path)) {
-    throw InputError(path.string() + ": no such rig file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  std::string text = content.str();
-  if (!text.starts_with("%YAML") || text.find('\0') != std::string::npos) {
-    throw InputError(path.string() + ": is not an OpenCV YAML file, whose first line is %YAML:1.0");
-  }
-  return text;
-}
 
 /// The rotation closest to a matrix already checked to be nearly one (polar decomposition).
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {
@@ -146,7 +130,7 @@ void writeKnown(cv::FileStorage& file, const StereoRig& rig) {
 }  // namespace
 
 StereoRig loadRig(const fs::path& path) {
-  const std::string text = readText(path);
+  const std::string text = readOpenCvText(path, OpenCvSyntax::kYaml);
   try {
     const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!file.isOpened() || !file.root().isMap()) {

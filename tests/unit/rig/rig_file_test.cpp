@@ -133,6 +133,13 @@ TEST_F(RigFile, NamesMissingAndIllShapedKeys) {
               HasSubstr("positive focal"));
 }
 
+TEST_F(RigFile, ThatOpenCvWouldReadForEverIsRefused) {
+  write("%YAML:1.0\n-----------\ni\n   d\n");
+  EXPECT_THAT(refusal(), testing::HasSubstr("with keys at the top"));
+  write("%YAML:1.0\nK1: [ 1, 2\n");
+  EXPECT_THAT(refusal(), testing::HasSubstr("is not YAML"));
+}
+
 TEST_F(RigFile, HoldsJointZerosOnlyIfThereAreAny) {
   StereoRig rig = test::sampleRig();
   saveRig(path_, rig);
@@ -158,7 +165,7 @@ TEST_F(RigFile, RefusesWhatIsNoRig) {
     EXPECT_THAT(refusal(), testing::HasSubstr("rig.yaml")) << text;
   }
   fs::remove(path_);
-  EXPECT_THAT(refusal(), testing::HasSubstr("no such rig file"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("no such file"));
 }
 
 TEST_F(RigFile, RefusesMirrorsAndBadNumbersBeforeWriting) {
