@@ -55,9 +55,10 @@ std::string readOpenCvText(const std::filesystem::path& path, OpenCvSyntax synta
   std::string text = content.str();
   const bool xml = syntax == OpenCvSyntax::kYamlOrXml && text.starts_with("<?xml");
   if ((!xml && !text.starts_with("%YAML")) || text.find('\0') != std::string::npos) {
-    throw InputError(
-        where + ": is not an OpenCV YAML file, whose first line is %YAML:1.0" +
-        (syntax == OpenCvSyntax::kYamlOrXml ? ", or XML, whose first is <?xml ...>" : ""));
+    throw InputError(where + (syntax == OpenCvSyntax::kYaml
+                                  ? ": is not an OpenCV YAML file, whose first line is %YAML:1.0"
+                                  : ": is not an OpenCV file, whose first line is %YAML:1.0 or "
+                                    "<?xml ...>"));
   }
   xml ? requireXml(text, where) : requireYaml(text, where);
   return text;
