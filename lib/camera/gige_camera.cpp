@@ -48,6 +48,14 @@ struct GigeCamera::Impl {
   void require(ArvError& error, const std::string& what);
   void openStream();
   GigeImage imageOf(ArvBuffer* buffer);
+  /// Images for which no buffer was free, since opening.
+  [[nodiscard]] std::int64_t underruns() const {
+    guint64 completed = 0;
+    guint64 failures = 0;
+    guint64 underruns = 0;
+    arv_stream_get_statistics(stream.get(), &completed, &failures, &underruns);
+    return static_cast<std::int64_t>(underruns);
+  }
   static void onControlLost(ArvDevice*, gpointer impl) {
     static_cast<Impl*>(impl)->control_lost = true;
   }
@@ -66,6 +74,7 @@ struct GigeCamera::Impl {
   bool silent = false;  ///< a setting was not answered
   std::atomic<std::int64_t> images = 0;
   std::atomic<std::int64_t> broken = 0;
+  std::atomic<std::int64_t> unwanted = -1;  ///< underruns before the first take(); -1: none yet
 };
 
 GigeCamera::Impl::Impl(const GigeCameraOptions& o) : options(o), device(openArvDevice(o.device)) {
@@ -258,6 +267,9 @@ void GigeCamera::fire() {
 std::optional<GigeImage> GigeCamera::take(double timeout_s) {
   const auto timeout_us = static_cast<std::uint64_t>(std::max(0.0, timeout_s) * 1e6);
   ArvStream* stream = impl_->stream.get();
+  if (impl_->unwanted < 0) {
+    impl_->unwanted = impl_->underruns();
+  }
   ArvBuffer* buffer = timeout_us > 0 ? arv_stream_timeout_pop_buffer(stream, timeout_us)
                                      : arv_stream_try_pop_buffer(stream);
   if (buffer == nullptr) {
@@ -282,16 +294,13 @@ std::optional<GigeImage> GigeCamera::take(double timeout_s) {
 }
 
 GigeCounts GigeCamera::counts() const {
-  guint64 completed = 0;
-  guint64 failures = 0;
-  guint64 underruns = 0;
-  arv_stream_get_statistics(impl_->stream.get(), &completed, &failures, &underruns);
   guint64 resent = 0;
   guint64 missing = 0;
   arv_gv_stream_get_statistics(ARV_GV_STREAM(impl_->stream.get()), &resent, &missing);
   GigeCounts counts;
   counts.images = impl_->images;
-  counts.lost_images = impl_->broken + static_cast<std::int64_t>(underruns);
+  counts.lost_images =
+      impl_->broken + (impl_->unwanted < 0 ? 0 : impl_->underruns() - impl_->unwanted);
   counts.resent_packets = static_cast<std::int64_t>(resent);
   counts.missing_packets = static_cast<std::int64_t>(missing);
   return counts;

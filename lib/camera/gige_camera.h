@@ -50,8 +50,9 @@ struct GigeImage {
 
 /// What came and what did not, since the camera was opened.
 struct GigeCounts {
-  std::int64_t images = 0;           ///< complete
-  std::int64_t lost_images = 0;      ///< with packets missing, or for which no buffer was free
+  std::int64_t images = 0;  ///< complete
+  /// With packets missing, or for which no buffer was free; none from before the first take().
+  std::int64_t lost_images = 0;
   std::int64_t missing_packets = 0;  ///< as far as noticed
   std::int64_t resent_packets = 0;   ///< asked for again
 };

@@ -24,7 +24,7 @@ SwingVector anyState() {
   SwingVector state = hanging();
   state.segment<9>(kSwingPivot) << 0.4, -0.5, 1.0, 0.01, 0.2, -0.02, 0.3, -0.8, 0.5;
   state.segment<4>(kSwingAngle) << 0.7, -0.5, 1.3, -0.9;
-  state.segment<8>(kSwingLengthRatio) << 0.05, 0.04, 0.02, 0.1, 0.01, -0.02, 0.3, 0.0;
+  state.segment<7>(kSwingLengthRatio) << 0.05, 0.04, 0.02, 0.1, 0.01, -0.02, 0.3;
   return state;
 }
 
