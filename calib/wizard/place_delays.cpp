@@ -28,13 +28,6 @@ constexpr double kWayStep = 0.02;           // [s]
 constexpr int kMissesLost = 5;              // frames in a row
 constexpr std::size_t kFramesWaiting = 64;  // for the disk
 
-LimiterSettings limiterSettings(const CellConfig& cell) {
-  LimiterSettings settings;
-  settings.tool_e = cell.arm.eMr.translation();
-  settings.period_s = kArmPeriod;
-  return settings;
-}
-
 /// One wiggle, watched.
 class WatchedWiggle {
  public:
@@ -44,7 +37,7 @@ class WatchedWiggle {
         step_(step),
         watch_(rig, plate),
         arm_(armOf(rig)),
-        limiter_(limiterSettings(cell)) {
+        limiter_(limiterSettings(cell.arm, arm_)) {
     record_.motion.fMc1 = requireRobotCamera(rig, cell.rig);
     record_.stamps_are_mid_exposure = devices.stamps_are_mid_exposure;
     record_.command_delay_s = devices.arm.commandDelay();

@@ -89,4 +89,12 @@ RegionLimits regionLimits(ArvCamera* camera, const std::string& device) {
   return limits;
 }
 
+std::int64_t underrunsOf(ArvStream* stream) {
+  guint64 completed = 0;
+  guint64 failures = 0;
+  guint64 underruns = 0;
+  arv_stream_get_statistics(stream, &completed, &failures, &underruns);
+  return static_cast<std::int64_t>(underruns);
+}
+
 }  // namespace ringhook

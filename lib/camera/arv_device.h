@@ -6,6 +6,7 @@
 
 #include <arv.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -51,5 +52,8 @@ Owned<ArvDevice> openArvDevice(const std::string& name);
 
 /// Sensor and region as the camera tells them. Throws DeviceError naming `device`.
 RegionLimits regionLimits(ArvCamera* camera, const std::string& device);
+
+/// Images for which no buffer was free, since the stream was opened.
+std::int64_t underrunsOf(ArvStream* stream);
 
 }  // namespace ringhook

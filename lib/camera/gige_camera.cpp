@@ -48,14 +48,6 @@ struct GigeCamera::Impl {
   void require(ArvError& error, const std::string& what);
   void openStream();
   GigeImage imageOf(ArvBuffer* buffer);
-  /// Images for which no buffer was free, since opening.
-  [[nodiscard]] std::int64_t underruns() const {
-    guint64 completed = 0;
-    guint64 failures = 0;
-    guint64 underruns = 0;
-    arv_stream_get_statistics(stream.get(), &completed, &failures, &underruns);
-    return static_cast<std::int64_t>(underruns);
-  }
   static void onControlLost(ArvDevice*, gpointer impl) {
     static_cast<Impl*>(impl)->control_lost = true;
   }
@@ -268,7 +260,7 @@ std::optional<GigeImage> GigeCamera::take(double timeout_s) {
   const auto timeout_us = static_cast<std::uint64_t>(std::max(0.0, timeout_s) * 1e6);
   ArvStream* stream = impl_->stream.get();
   if (impl_->unwanted < 0) {
-    impl_->unwanted = impl_->underruns();
+    impl_->unwanted = underrunsOf(impl_->stream.get());
   }
   ArvBuffer* buffer = timeout_us > 0 ? arv_stream_timeout_pop_buffer(stream, timeout_us)
                                      : arv_stream_try_pop_buffer(stream);
@@ -300,7 +292,8 @@ GigeCounts GigeCamera::counts() const {
   GigeCounts counts;
   counts.images = impl_->images;
   counts.lost_images =
-      impl_->broken + (impl_->unwanted < 0 ? 0 : impl_->underruns() - impl_->unwanted);
+      impl_->broken +
+      (impl_->unwanted < 0 ? 0 : underrunsOf(impl_->stream.get()) - impl_->unwanted);
   counts.resent_packets = static_cast<std::int64_t>(resent);
   counts.missing_packets = static_cast<std::int64_t>(missing);
   return counts;

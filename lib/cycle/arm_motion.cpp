@@ -9,21 +9,20 @@ namespace {
 constexpr double kArrived = 1e-3;        // [rad]
 constexpr double kCoarseGainPerS = 5.0;  // of the joint-space tracking law
 
-/// The ring's centre is the tool point.
-LimiterSettings limiterSettings(const ArmConfig& arm, const rx60::Geometry& geometry) {
-  LimiterSettings settings;
-  settings.geometry = geometry;
-  settings.tool_e = arm.eMr.translation();
-  settings.period_s = kArmPeriod;
-  return settings;
-}
-
 }  // namespace
 
 rx60::Geometry armOf(const StereoRig& rig) {
   rx60::Geometry arm = rx60::rx60();
   arm.zero = rig.joint_zeros_rad;
   return arm;
+}
+
+LimiterSettings limiterSettings(const ArmConfig& config, const rx60::Geometry& arm) {
+  LimiterSettings settings;
+  settings.geometry = arm;
+  settings.tool_e = config.eMr.translation();
+  settings.period_s = kArmPeriod;
+  return settings;
 }
 
 ArmMotion::ArmMotion(const CellConfig& cell, const rx60::Geometry& arm)

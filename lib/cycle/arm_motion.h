@@ -23,6 +23,9 @@ namespace ringhook {
 /// The arm that a rig's fMc1 belongs to: its joint zeros are those of the rig.
 rx60::Geometry armOf(const StereoRig& rig);
 
+/// Limits of a held ring: its centre is the tool point.
+LimiterSettings limiterSettings(const ArmConfig& config, const rx60::Geometry& arm);
+
 /// State messages of the arm are this far apart [s] (rx60.md: 250 Hz).
 inline constexpr double kArmPeriod = 0.004;
 
