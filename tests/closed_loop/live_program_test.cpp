@@ -29,18 +29,16 @@ nlohmann::json jsonOf(const std::filesystem::path& file) {
 
 class LivePrograms : public ::testing::Test {
  protected:
-  void SetUp() override {
+  void SetUp() override { serve({"--truth", "truth"}, "the belt starts when"); }
+
+  void serve(const std::vector<std::string>& more, const std::string& says) {
     if (!test::ownNetwork().empty()) {
       GTEST_SKIP() << test::ownNetwork();
     }
-    serve({"--truth", "truth"});
-    ASSERT_TRUE(cell_->waitUntilItSays("the belt starts when"));
-  }
-
-  void serve(const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"simulate", "--cell", kCell, "--json", "cell.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     cell_ = std::make_unique<test::Program>(scratch_.path(), arguments);
+    ASSERT_TRUE(cell_->waitUntilItSays(says));
   }
 
   ScratchFolder scratch_;
@@ -70,13 +68,7 @@ TEST_F(LivePrograms, CtrlCStopsTheArmOverTheWireThenSaves) {
 /// The same without hooks and motion.
 class ParkedPrograms : public LivePrograms {
  protected:
-  void SetUp() override {
-    if (!test::ownNetwork().empty()) {
-      GTEST_SKIP() << test::ownNetwork();
-    }
-    serve({"--belt-parked"});
-    ASSERT_TRUE(cell_->waitUntilItSays("the belt is parked"));
-  }
+  void SetUp() override { serve({"--belt-parked"}, "the belt is parked"); }
 };
 
 TEST_F(ParkedPrograms, CtrlCEndsTheWigglingOfARealArmAndWritesNothing) {
