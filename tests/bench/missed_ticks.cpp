@@ -3,96 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <thread>
+#include <vector>
 
 #include "bench_arm.h"
-#include "core/thread_priority.h"
+#include "machine_watch.h"
 #include "robot/rx60/tcp_port.h"
 #include "sim/rx60_server.h"
 
 namespace ringhook::bench {
 namespace {
 
-/// How much of the processors' time a host above this machine has given to others, of all there was
-/// since the numbers before (Linux, /proc/stat: field 8 of the first line).
-class StolenTime {
- public:
-  StolenTime() : before_(read()) {}
-  [[nodiscard]] double percent() const {
-    const Ticks now = read();
-    return now.all > before_.all ? 100.0 * (now.stolen - before_.stolen) / (now.all - before_.all)
-                                 : 0.0;
-  }
-
- private:
-  struct Ticks {
-    double stolen = 0.0;
-    double all = 0.0;
-  };
-  static Ticks read() {
-    std::ifstream stat("/proc/stat");
-    std::string cpu;
-    stat >> cpu;
-    Ticks ticks;
-    double value = 0.0;
-    for (int field = 1; field <= 8 && stat >> value; ++field) {
-      ticks.all += value;
-      ticks.stolen = field == 8 ? value : 0.0;
-    }
-    return ticks;
-  }
-  Ticks before_;
-};
-
-/// A thread of the link's own rank that does nothing but wake every tick: what no client on this
-/// machine can be better than.
-class Metronome {
- public:
-  Metronome() : thread_([this] { run(); }) {}
-  ~Metronome() { finish(); }
-  Metronome(const Metronome&) = delete;
-  Metronome& operator=(const Metronome&) = delete;
-
-  void finish() {
-    end_ = true;
-    if (thread_.joinable()) {
-      thread_.join();
-    }
-  }
-  /// Once finished.
-  void print() const {
-    std::printf(
-        "%-28s %8lld wake-ups every 4 ms,  %6lld late by more than 4 ms, the latest by %.2f ms\n",
-        "the machine itself", static_cast<long long>(wake_ups_), static_cast<long long>(late_),
-        1e3 * worst_s_);
-  }
-
- private:
-  void run() {
-    const RaisedPriority raised(kLinkRank);
-    for (auto next = Clock::now() + kTick; !end_; next += kTick) {
-      std::this_thread::sleep_until(next);
-      const Clock::duration late = Clock::now() - next;
-      ++wake_ups_;
-      late_ += late > kTick ? 1 : 0;
-      worst_s_ = std::max(worst_s_, std::chrono::duration<double>(late).count());
-      next = late > kTick ? Clock::now() : next;
-    }
-  }
-
-  std::atomic<bool> end_ = false;
-  std::int64_t wake_ups_ = 0;
-  std::int64_t late_ = 0;
-  double worst_s_ = 0.0;
-  std::thread thread_;
-};
-
-/// A served controller that notes how many ticks in a row stayed without a command.
+/// A served controller that notes which of its ticks found no command.
 class Served {
  public:
   Served() {
@@ -122,34 +47,67 @@ class Served {
     address.io_port = server_->port(Rx60Socket::kIo);
     return address;
   }
-  void print(const char* who) const {
-    const double share =
-        ticks_ > 0 ? 100.0 * static_cast<double>(missed_) / static_cast<double>(ticks_) : 0.0;
-    std::printf("%-28s %8lld ticks in velocity mode, %6lld without a command (%.2f %%)", who,
-                static_cast<long long>(ticks_), static_cast<long long>(missed_), share);
+  /// Once finished.
+  void print(const char* who, const MachineWatch& machine) const {
+    const Tally all = tally(nullptr);
+    const Tally awake = tally(&machine);
+    std::printf("%-26s %6zu ticks in velocity mode, %6zu without a command (%.2f %%)", who,
+                all.ticks, all.missed, share(all.missed, all.ticks));
     std::printf("; runs of missed ticks:");
-    for (const auto& [length, count] : runs_) {
-      std::printf(" %lldx%d", static_cast<long long>(count), length);
+    for (const auto& [length, count] : all.runs) {
+      std::printf(" %dx%d", count, length);
     }
-    std::printf("%s; ticks the server itself left out: %lld\n", runs_.empty() ? " none" : "",
+    std::printf("%s; ticks the server itself left out: %lld\n", all.runs.empty() ? " none" : "",
                 static_cast<long long>(server_->lateTicks()));
+    std::printf("%-26s %6zu of these ticks,        %6zu without a command\n",
+                "  while the machine ran", awake.ticks, awake.missed);
   }
 
  private:
+  struct Tick {
+    Clock::time_point time;
+    bool missed;  ///< it found no command
+  };
+  struct Tally {
+    std::size_t ticks = 0;
+    std::size_t missed = 0;
+    std::map<int, int> runs;  ///< how often so many ticks in a row were missed
+  };
+
   void look() {
     const Rx60Counts& counts = controller_.counts();
-    if (counting_) {
-      ticks_ += counts.velocity_ticks - last_.velocity_ticks;
-      const auto missed = counts.missed_ticks - last_.missed_ticks;
-      missed_ += missed;
-      if (missed > 0) {
-        ++run_;
-      } else if (run_ > 0) {
-        ++runs_[run_];
-        run_ = 0;
-      }
+    if (counting_ && counts.velocity_ticks != last_.velocity_ticks) {
+      ticks_.push_back({Clock::now(), counts.missed_ticks != last_.missed_ticks});
     }
     last_ = counts;
+  }
+  static double share(std::size_t part, std::size_t all) {
+    return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
+  }
+  /// Of all ticks; with a machine, of those in whose last two periods no processor stood still:
+  /// the feedback that a command answers is up to two periods older than the tick that takes it.
+  [[nodiscard]] Tally tally(const MachineWatch* machine) const {
+    Tally tally;
+    int run = 0;
+    const auto end_run = [&] {
+      tally.runs[run] += run > 0 ? 1 : 0;
+      run = 0;
+    };
+    for (const Tick& tick : ticks_) {
+      if (machine != nullptr && machine->stoodStill(tick.time - 2 * kTick, tick.time)) {
+        end_run();
+        continue;
+      }
+      ++tally.ticks;
+      tally.missed += tick.missed ? 1 : 0;
+      run += tick.missed ? 1 : 0;
+      if (!tick.missed) {
+        end_run();
+      }
+    }
+    end_run();
+    tally.runs.erase(0);
+    return tally;
   }
 
   KinematicPlant plant_{startPosition()};
@@ -158,10 +116,7 @@ class Served {
   std::atomic<bool> end_ = false;
   std::atomic<bool> counting_ = false;
   Rx60Counts last_;
-  std::int64_t ticks_ = 0;
-  std::int64_t missed_ = 0;
-  int run_ = 0;
-  std::map<int, std::int64_t> runs_;  ///< how often so many ticks in a row were missed
+  std::vector<Tick> ticks_;
   std::thread thread_;
 };
 
@@ -185,9 +140,10 @@ void serveOurs(Served& served, double seconds) {
   const rx60::LinkReport report = arm.report();
   std::printf(
       "our client: feedback period %.4f ms, jitter %.3f ms, longest gap %.2f ms, missed "
-      "feedbacks %lld\n",
+      "feedbacks %lld, left out %lld commands\n",
       1e3 * report.arrivals.period_s, 1e3 * report.arrivals.jitter_s,
-      1e3 * report.arrivals.worst_gap_s, static_cast<long long>(report.arrivals.missed_cycles));
+      1e3 * report.arrivals.worst_gap_s, static_cast<long long>(report.arrivals.missed_cycles),
+      static_cast<long long>(report.left_out));
 }
 
 /// What a client does that sends on a timer of its own and reads whatever comes.
@@ -235,21 +191,22 @@ void serveFreeRunning(Served& served, double seconds) {
 
 void compareMissedTicks(double seconds) {
   const StolenTime stolen;
-  Metronome metronome;
+  MachineWatch machine;
   Served ours;
   Served free_running;
   std::thread one([&] { serveOurs(ours, seconds); });
   std::thread two([&] { serveFreeRunning(free_running, seconds); });
   one.join();
   two.join();
-  metronome.finish();
   ours.finish();
   free_running.finish();
-  ours.print("our client");
-  free_running.print("free-running 50 Hz client");
-  metronome.print();
-  std::printf("processor time that the host above this machine took away meanwhile: %.1f %%\n",
-              stolen.percent());
+  machine.finish();
+  ours.print("our client", machine);
+  free_running.print("free-running 50 Hz client", machine);
+  std::printf(
+      "the machine itself: a processor stood still for more than 1 ms %zu times, for %.2f ms at "
+      "most; the host above took away %.1f %% of the processors' time\n",
+      machine.standStills(), 1e3 * machine.longest_s(), stolen.percent());
 }
 
 }  // namespace ringhook::bench

@@ -13,12 +13,18 @@
 #include <vector>
 
 #include "bench_arm.h"
+#include "machine_watch.h"
 #include "robot/rx60/tcp_port.h"
 #include "sim/rx60_controller.h"
 #include "sim/tcp_listener.h"
 
 namespace ringhook::bench {
 namespace {
+
+// Left to the scheduler, an echo may stay on the measuring thread's own processor, which is awake,
+// while a client stays on another one, which sleeps: that compares processors, not programs.
+constexpr unsigned kMeasuring = 0;
+constexpr unsigned kAnswering = 1;
 
 /// A listening socket whose other end is a thread that sends back what it gets.
 class Echo {
@@ -39,6 +45,7 @@ class Echo {
 
  private:
   void run() {
+    stayOn(kAnswering);
     std::array<std::byte, 256> bytes{};
     pollfd waiting{socket_.get(), POLLIN, 0};
     while (::poll(&waiting, 1, -1) > 0) {
@@ -83,6 +90,7 @@ class WakeUps {
   void measure(int cycles) {
     std::atomic<bool> done = false;
     std::thread client([this, &done] { runClient(done); });
+    stayOn(kMeasuring);
     while (!allConnected()) {
     }
     auto next = Clock::now();
@@ -111,6 +119,7 @@ class WakeUps {
 
  private:
   void runClient(const std::atomic<bool>& done) {
+    stayOn(kAnswering);
     rx60::ControllerAddress address;
     address.motion_port = motion_.port();
     address.state_port = state_.port();
