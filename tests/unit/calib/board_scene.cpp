@@ -143,7 +143,7 @@ class Print {
       const double start = std::fmod(std::abs(row), 2.0);
       column = start + 2.0 * std::round((x - start) / 2.0);
     }
-    const bool there = row >= 0 && row <= high_.y() && column >= 0 && column <= high_.x();
+    const bool there = row >= 0 && row < high_.y() + 0.5 && column >= 0 && column < high_.x() + 0.5;
     return there && std::hypot(x - column, y - row) < radius ? kInk : kPaper;
   }
 
