@@ -9,14 +9,13 @@
 #include "sim/cell_world.h"
 #include "sim/nominal_rig.h"
 #include "sim/sim_stereo_camera.h"
-#include "stereo/triangulation.h"
+#include "tests/support/measured_by_rig.h"
 
 namespace ringhook {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
 constexpr double kBar_m = 0.2;
-constexpr double kPlane_px = 2500.0;  // scale of undistorted pixels
 
 // Facing the cameras, turned about an axis in its plane by `tilt` [rad] and rolled a little.
 Pose heldAt(const Board& board, const Eigen::Vector3d& middle_f, double direction, double tilt) {
@@ -30,29 +29,6 @@ Pose heldAt(const Board& board, const Eigen::Vector3d& middle_f, double directio
                                  0.5 * board.pitch_m * (board.rows - 1), 0.0);
   fMt.translation() = middle_f - fMt.linear() * middle_t;
   return fMt;
-}
-
-Eigen::Vector2d imageOf(const CameraModel& camera, const Pose& cMf, const Eigen::Vector3d& p_f) {
-  return projectNormalised(camera, (cMf * p_f).hnormalized());
-}
-
-// A point of the true rig's images as `rig` measures it, in c1 [m].
-Eigen::Vector3d measured(const StereoRig& rig, const Eigen::Vector2d& left,
-                         const Eigen::Vector2d& right) {
-  const auto ray1 = undistortPixel(rig.left, left);
-  const auto ray2 = undistortPixel(*rig.right, right);
-  if (!ray1 || !ray2) {
-    throw Error("a bar's end lies beyond the lens model");
-  }
-  PinholeView one;
-  one.fx = one.fy = kPlane_px;
-  PinholeView two = one;
-  two.cMc1 = rig.c2Mc1;
-  const auto point = triangulateOptimal(one, two, kPlane_px * *ray1, kPlane_px * *ray2, 0.05);
-  if (!point) {
-    throw Error("a bar's end cannot be triangulated: " + point.reason());
-  }
-  return point->point_c1;
 }
 
 }  // namespace
@@ -106,7 +82,8 @@ std::vector<double> renderedBarErrors(const StereoRig& rig, int count, std::uint
       std::array<Eigen::Vector3d, 2> ends;
       for (const int end : {0, 1}) {
         const std::size_t k = gridIndex(board, row, end * (board.columns - 1));
-        ends[static_cast<std::size_t>(end)] = measured(rig, left->pixels[k], ordered.pixels[k]);
+        ends[static_cast<std::size_t>(end)] =
+            test::triangulatedBy(rig, left->pixels[k], ordered.pixels[k]);
       }
       errors.push_back((ends[1] - ends[0]).norm() - kBar_m);
     }
@@ -133,9 +110,9 @@ double barError(const StereoRig& rig, const StereoRig& truth, double sigma_px, s
       const auto noise = [&]() -> Eigen::Vector2d {
         return sigma_px * Eigen::Vector2d(normal(random), normal(random));
       };
-      const Eigen::Vector2d left = imageOf(truth.left, c1Mf, end) + noise();
-      const Eigen::Vector2d right = imageOf(*truth.right, c2Mf, end) + noise();
-      ends[k] = measured(rig, left, right);
+      const Eigen::Vector2d left = test::imageOf(truth.left, c1Mf * end) + noise();
+      const Eigen::Vector2d right = test::imageOf(*truth.right, c2Mf * end) + noise();
+      ends[k] = test::triangulatedBy(rig, left, right);
     }
     sum += std::pow((ends[1] - ends[0]).norm() - kBar_m, 2);
   }

@@ -8,6 +8,7 @@
 #include "sim/nominal_rig.h"
 #include "sim/scenario.h"
 #include "stereo/triangulation.h"
+#include "tests/support/measured_by_rig.h"
 #include "tracking/marker_tracker.h"
 
 namespace ringhook {
@@ -115,11 +116,12 @@ std::vector<PointPair> RenderedCell::pointsOf(const std::vector<PlateView>& view
   return points;
 }
 
-Pose RenderedCell::trueCamera() const {
+StereoRig RenderedCell::trueRig() const {
   const CellConfig cell = easyCell();
-  const RigErrors errors = loadScenario(cell.devices.scenario).calibration;
-  return *disturbedRig(told_, seed_, errors).fMc1;
+  return disturbedRig(told_, seed_, loadScenario(cell.devices.scenario).calibration);
 }
+
+Pose RenderedCell::trueCamera() const { return *trueRig().fMc1; }
 
 Pose RenderedCell::trueTarget() { return eMg(); }
 
@@ -132,6 +134,8 @@ JointVector RenderedCell::trueZeros() const {
 double RenderedCell::ringError(const Pose& fMc1, const JointVector& zeros_rad) const {
   constexpr int kPlaces = 200;
   const CellConfig cell = easyCell();
+  const StereoRig true_rig = trueRig();
+  const Pose c1Mf = trueCamera().inverse();
   rx60::Geometry real = rx60::rx60();
   rx60::Geometry found = rx60::rx60();
   real.zero = trueZeros();
@@ -148,9 +152,9 @@ double RenderedCell::ringError(const Pose& fMc1, const JointVector& zeros_rad) c
     if (!q) {
       continue;  // beyond the arm's reach
     }
-    const Pose told = fMc1.inverse() * rx60::forward(found, *q) * cell.arm.eMr;
-    const Pose is = trueCamera().inverse() * rx60::forward(real, *q) * cell.arm.eMr;
-    sum += (told.translation() - is.translation()).squaredNorm();
+    const Vector3d said = (rx60::forward(found, *q) * cell.arm.eMr).translation();
+    const Vector3d is = (rx60::forward(real, *q) * cell.arm.eMr).translation();
+    sum += (fMc1 * test::measuredBy(told_, true_rig, c1Mf * is) - said).squaredNorm();
     ++places;
   }
   return std::sqrt(sum / kPlaces);

@@ -37,12 +37,15 @@ class RenderedCell {
   /// triangulate it.
   static std::vector<PointPair> pointsOf(const std::vector<PlateView>& views);
 
+  [[nodiscard]] StereoRig trueRig() const;
   [[nodiscard]] Pose trueCamera() const;   ///< fMc1, where the left camera really stands
   [[nodiscard]] static Pose trueTarget();  ///< eMg by drawing
   [[nodiscard]] JointVector trueZeros() const;
 
-  /// What a calibration is for: RMS distance [m] between where a ring in the gripper is and where
-  /// camera and arm say it is, both in the left camera, over places where rings meet hooks.
+  /// What a calibration is for: RMS distance [m] between where the arm says that a ring in the
+  /// gripper is and where the cameras see it, both in f, over places where rings meet hooks. The
+  /// cameras' rig is the one told to them, so what it sees wrongly is part of the error, as it is
+  /// when the ring meets a hook.
   [[nodiscard]] double ringError(const Pose& fMc1, const JointVector& zeros_rad) const;
 
  private:
