@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -10,6 +9,7 @@
 #include <mutex>
 #include <thread>
 
+#include "camera/restart_spans.h"
 #include "camera/stamp_clock.h"
 #include "camera/stereo_pairing.h"
 #include "core/error.h"
@@ -41,8 +41,7 @@ void requireRate(double rate_hz) {
 
 Time now() {
   return Time::fromNanoseconds(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now().time_since_epoch())
-          .count());
+      std::chrono::nanoseconds(SteadyClock::now().time_since_epoch()).count());
 }
 
 double secondsSince(SteadyClock::time_point start) {
@@ -73,12 +72,10 @@ struct AravisStereoCamera::Impl {
   std::array<std::unique_ptr<GigeCamera>, 2> cameras;
   Window full;
   std::array<StampClock, 2> clocks;
+  RestartSpans restarts;
   StereoPairing pairing;
   std::int64_t pairs = 0;
-  std::int64_t settling = 0;
   double lateness_s = 0.0;
-  std::atomic<std::int64_t> settled_ns = 0;  // since when both cameras stream; host's steady clock
-
   std::mutex mutex;  // guards what follows
   std::condition_variable changed;
   Wish wish;
@@ -89,7 +86,9 @@ struct AravisStereoCamera::Impl {
 };
 
 AravisStereoCamera::Impl::Impl(const AravisOptions& o)
-    : options(o), pairing(pairingTolerance(o.rate_hz)) {
+    : options(o), pairing(pairingTolerance(o.rate_hz), [this](Time exposure) {
+        return restarts.covers(exposure);
+      }) {
   requireRate(options.rate_hz);
   options.left.follow_host_clock = options.right.follow_host_clock =
       options.clock == CameraClock::kHost;
@@ -103,11 +102,12 @@ AravisStereoCamera::Impl::Impl(const AravisOptions& o)
                       " have sensors of different size");
   }
   wish = granted = {{full, full}, options.rate_hz};
+  restarts.begin(now());
   for (auto& camera : cameras) {
     camera->setFrameRate(options.rate_hz);
     camera->start();
   }
-  settled_ns = now().nanoseconds();
+  restarts.end(now());
   thread = std::thread([this] { serveWishes(); });
 }
 
@@ -156,19 +156,24 @@ void AravisStereoCamera::Impl::serveWishes() noexcept {
 }
 
 void AravisStereoCamera::Impl::grant(const Wish& asked) {
-  bool restarted = false;
+  std::array<Window, 2> regions;
+  bool restart = false;
   for (std::size_t side = 0; side < 2; ++side) {
-    GigeCamera& camera = *cameras[side];
-    if (asked.rate_hz != granted.rate_hz) {
-      camera.setFrameRate(asked.rate_hz);
-    }
-    const Window before = camera.region();
-    camera.setRegion(readoutRegion(asked.windows[side], before, camera.limits()));
-    restarted = restarted || before.width != camera.region().width ||
-                before.height != camera.region().height;
+    const Window before = cameras[side]->region();
+    regions[side] = readoutRegion(asked.windows[side], before, cameras[side]->limits());
+    restart = restart || !before.sameSize(regions[side]);
   }
-  if (restarted) {
-    settled_ns = now().nanoseconds();
+  if (restart) {  // an image may still be on its way out of its camera
+    restarts.begin(now() - 1.0 / std::min(granted.rate_hz, asked.rate_hz));
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (asked.rate_hz != granted.rate_hz) {
+      cameras[side]->setFrameRate(asked.rate_hz);
+    }
+    cameras[side]->setRegion(regions[side]);
+  }
+  if (restart) {
+    restarts.end(now());
   }
   const std::lock_guard lock(mutex);
   granted = asked;
@@ -208,12 +213,7 @@ bool AravisStereoCamera::Impl::collect(int side, double timeout_s) {
   if (!image) {
     return false;
   }
-  const Time time = midExposure(side, *image);
-  if (time.nanoseconds() < settled_ns) {
-    ++settling;  // one camera streamed, the other did not yet
-    return true;
-  }
-  pairing.add(side, {time, image->window, std::move(image->image)});
+  pairing.add(side, {midExposure(side, *image), image->window, std::move(image->image)});
   return true;
 }
 
@@ -292,7 +292,7 @@ AravisCounts AravisStereoCamera::counts() const {
   counts.right = impl_->cameras[1]->counts();
   counts.unpaired_left = impl_->pairing.unpaired(0);
   counts.unpaired_right = impl_->pairing.unpaired(1);
-  counts.settling = impl_->settling;
+  counts.settling = impl_->pairing.excused();
   counts.lateness_s = impl_->lateness_s;
   return counts;
 }

@@ -38,7 +38,7 @@ struct AravisCounts {
   GigeCounts right;
   std::int64_t unpaired_left = 0;   ///< left images whose partner did not come
   std::int64_t unpaired_right = 0;  ///< likewise
-  std::int64_t settling = 0;        ///< left out: taken while one of the two was being restarted
+  std::int64_t settling = 0;        ///< alone because the other camera was being restarted
   double lateness_s = 0.0;          ///< of the last image: from its stamp to its first packet [s]
 };
 

@@ -14,11 +14,9 @@ namespace ringhook {
 namespace {
 
 std::int64_t steadyMinusReal_ns() {
-  using std::chrono::duration_cast;
-  using std::chrono::nanoseconds;
   const auto steady = std::chrono::steady_clock::now().time_since_epoch();
   const auto real = std::chrono::system_clock::now().time_since_epoch();
-  return duration_cast<nanoseconds>(steady).count() - duration_cast<nanoseconds>(real).count();
+  return std::chrono::nanoseconds(steady).count() - std::chrono::nanoseconds(real).count();
 }
 
 /// A free-running camera that sends nothing for longer is taken for gone [s].
@@ -202,9 +200,8 @@ void GigeCamera::setRegion(const Window& region) {
   if (region == now) {
     return;
   }
-  const bool same_size = region.width == now.width && region.height == now.height;
   ArvError error(impl_->options.device);
-  if (same_size) {
+  if (region.sameSize(now)) {
     ArvDevice* device = impl_->device.get();
     arv_device_set_integer_feature_value(device, "OffsetX", region.x, error.out());
     impl_->require(error, "refuses to move its region to column " + std::to_string(region.x));

@@ -27,8 +27,8 @@ std::optional<std::pair<MonoFrame, MonoFrame>> StereoPairing::take() {
 }
 
 void StereoPairing::dropOldest(int side) {
+  ++(excused_(waiting_[side].front().time) ? excused_alone_ : unpaired_[side]);
   waiting_[side].pop_front();
-  ++unpaired_[side];
 }
 
 }  // namespace ringhook

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -28,7 +29,10 @@ struct MonoFrame {
 class StereoPairing {
  public:
   /// \param tolerance_s largest difference of two instants of one exposure [s], positive.
-  explicit StereoPairing(double tolerance_s) : tolerance_s_(tolerance_s) {}
+  /// \param excused whether an image of that instant may stay alone without being a loss.
+  explicit StereoPairing(
+      double tolerance_s, std::function<bool(Time)> excused = [](Time) { return false; })
+      : tolerance_s_(tolerance_s), excused_(std::move(excused)) {}
 
   void setTolerance(double tolerance_s) { tolerance_s_ = tolerance_s; }
 
@@ -38,8 +42,10 @@ class StereoPairing {
   /// The oldest complete pair, left first; each is given once.
   [[nodiscard]] std::optional<std::pair<MonoFrame, MonoFrame>> take();
 
-  /// Images that stayed alone, of the left (0) or right (1) camera.
+  /// Images that stayed alone, of the left (0) or right (1) camera; not the excused ones.
   [[nodiscard]] std::int64_t unpaired(int side) const { return unpaired_[side]; }
+  /// Images of both that stayed alone and were excused.
+  [[nodiscard]] std::int64_t excused() const { return excused_alone_; }
 
  private:
   /// More waiting images than this of one side mean that the other camera is silent.
@@ -49,7 +55,9 @@ class StereoPairing {
 
   double tolerance_s_;
   std::deque<MonoFrame> waiting_[2];
+  std::function<bool(Time)> excused_;
   std::int64_t unpaired_[2] = {0, 0};
+  std::int64_t excused_alone_ = 0;
 };
 
 }  // namespace ringhook

@@ -21,6 +21,9 @@ struct Window {
   [[nodiscard]] bool contains(double px, double py) const {
     return px >= x && py >= y && px <= x + width - 1 && py <= y + height - 1;
   }
+  [[nodiscard]] bool sameSize(const Window& other) const {
+    return width == other.width && height == other.height;
+  }
   bool operator==(const Window&) const = default;
 };
 

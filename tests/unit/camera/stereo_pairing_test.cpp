@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "camera/restart_spans.h"
+
 namespace ringhook {
 namespace {
 
@@ -55,6 +57,21 @@ TEST(StereoPairing, ASilentCameraDoesNotFillTheMemory) {
     pairing.add(1, frameAt(0.02 * i));
   }
   EXPECT_EQ(pairing.unpaired(1), 1000 - 64);
+}
+
+TEST(StereoPairing, WhatStaysAloneDuringARestartIsNoLoss) {
+  RestartSpans restarts;
+  StereoPairing pairing(0.005, [&restarts](Time t) { return restarts.covers(t); });
+  restarts.begin(Time::fromSeconds(2.00));
+  restarts.end(Time::fromSeconds(2.04));
+  restarts.begin(Time::fromSeconds(4.00));  // the end is not known yet
+  for (const double alone_s : {1.99, 2.00, 2.02, 2.04, 3.99, 4.00}) {
+    pairing.add(0, frameAt(alone_s));
+  }
+  pairing.add(1, frameAt(5.0));
+  EXPECT_FALSE(pairing.take());
+  EXPECT_EQ(pairing.unpaired(0), 3);
+  EXPECT_EQ(pairing.excused(), 3);
 }
 
 TEST(StereoPairing, LossesOnBothSidesLeaveEveryCompletePair) {
