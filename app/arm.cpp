@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "app/interrupt.h"
 #include "app/options.h"
+#include "core/angle.h"
 #include "core/error.h"
 #include "robot/rx60/drive_power.h"
 #include "robot/rx60/rx60_arm.h"
@@ -18,7 +18,6 @@
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kPeriod = 0.004;  // between states [s]
 
 struct ArmArguments {

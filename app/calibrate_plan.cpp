@@ -4,22 +4,20 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 
 #include "app/calibrate_plan_job.h"
 #include "app/options.h"
+#include "core/angle.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kPerRadian_deg = 180.0 / std::numbers::pi;
-
 nlohmann::json choiceJson(const PlanChoice& c) {
   return {{"baseline_m", c.setup.baseline_m},
-          {"vergence_deg", c.setup.vergence_rad * kPerRadian_deg},
+          {"vergence_deg", c.setup.vergence_rad / kDegree},
           {"worst_mm", 1e3 * c.error.worst_m},
           {"rms_mm", 1e3 * c.error.rms_m},
           {"room_px", c.error.room_px}};
@@ -46,7 +44,7 @@ void addMap(const PlanMap& map, nlohmann::json& result) {
   }
   if (map.tag) {
     result["tag"] = {{"position_mm", 1e3 * map.tag->position_m},
-                     {"rotation_deg", map.tag->rotation_rad * kPerRadian_deg}};
+                     {"rotation_deg", map.tag->rotation_rad / kDegree}};
   }
   if (map.box_error && map.box_error->room_px >= 0.0) {
     result["box"] = {{"worst_mm", 1e3 * map.box_error->worst_m},
@@ -58,7 +56,7 @@ void addMap(const PlanMap& map, nlohmann::json& result) {
 nlohmann::json summary(const PlanJob& job, const PlanAnswer& a) {
   const PlanView& view = *a.view;
   nlohmann::json result{{"baseline_m", view.baseline_m},
-                        {"vergence_deg", view.vergence_rad * kPerRadian_deg},
+                        {"vergence_deg", view.vergence_rad / kDegree},
                         {"focal_px", view.rig.left.K(0, 0)},
                         {"distance_m", a.map.distance_m},
                         {"noise_px", job.noise_px}};
@@ -93,16 +91,16 @@ void printDistances(const PlanMap& map) {
 
 void printChoice(const char* what, const PlanChoice& c) {
   std::printf("%-25s baseline %.3f m, vergence %.2f deg: at worst %.4f mm, %.0f px to the border\n",
-              what, c.setup.baseline_m, c.setup.vergence_rad * kPerRadian_deg,
-              1e3 * c.error.worst_m, c.error.room_px);
+              what, c.setup.baseline_m, c.setup.vergence_rad / kDegree, 1e3 * c.error.worst_m,
+              c.error.room_px);
 }
 
 void printAnswer(const PlanJob& job, const PlanAnswer& a) {
   const PlanMap& map = a.map;
   printDistances(map);
   std::printf("\n%-25s baseline %.3f m, vergence %.2f deg (%.2f deg each camera), f %.0f px\n",
-              "rig", a.view->baseline_m, a.view->vergence_rad * kPerRadian_deg,
-              0.5 * a.view->vergence_rad * kPerRadian_deg, a.view->rig.left.K(0, 0));
+              "rig", a.view->baseline_m, a.view->vergence_rad / kDegree,
+              0.5 * a.view->vergence_rad / kDegree, a.view->rig.left.K(0, 0));
   std::printf("%-25s %.3f m x %.3f m (%.3f m2)\n", "both cameras see there",
               map.field.high_m.x() - map.field.low_m.x(),
               map.field.high_m.y() - map.field.low_m.y(), map.field.area_m2);
@@ -111,7 +109,7 @@ void printAnswer(const PlanJob& job, const PlanAnswer& a) {
               1e3 * map.middle->sigma_m.y(), 1e3 * map.middle->sigma_m.z());
   if (map.tag) {
     std::printf("%-25s %.4f mm, %.4f deg\n", "a tag there", 1e3 * map.tag->position_m,
-                map.tag->rotation_rad * kPerRadian_deg);
+                map.tag->rotation_rad / kDegree);
   }
   if (map.box_error && map.box_error->room_px >= 0.0) {
     std::printf("%-25s at worst %.4f mm, RMS %.4f mm, %.0f px to the border\n", "in the workspace",

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kCheckSeed = 1;
 
 /// What the words of a job mean, checked.

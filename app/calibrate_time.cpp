@@ -14,6 +14,7 @@
 #include "app/progress.h"
 #include "calib/wizard/place_delays.h"
 #include "camera/sequence.h"
+#include "core/angle.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file_kind.h"
@@ -82,7 +83,7 @@ void confirm(CalibrationPlace& place, const TimeArguments& arguments) {
         "%s: the arm will move to the cell file's standby pose and then swing every joint by "
         "up to %.1f degrees for %.0f s.\nIs everybody out of reach, is the way free? "
         "Type yes: ",
-        place.name().c_str(), 57.29578 * 2.5 * arguments.wiggle.amplitude_rad,
+        place.name().c_str(), 2.5 * arguments.wiggle.amplitude_rad / kDegree,
         arguments.wiggle.seconds);
     std::string answer;
     std::getline(std::cin, answer);

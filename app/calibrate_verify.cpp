@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -12,12 +11,12 @@
 #include "app/progress.h"
 #include "calib/solve/verify.h"
 #include "calib/solve/verify_views.h"
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kPerRadian_deg = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostFrames = 40;
 
 struct VerifyJob {
@@ -121,8 +120,8 @@ nlohmann::json summary(const Verification& v) {
             {"mean_error", 1e3 * v.bar.mean_m},
             {"rms_error", 1e3 * v.bar.rms_m},
             {"worst_error", 1e3 * v.bar.worst_m}}},
-          {"camera_moved_deg", listOf(m.rotation_rad, kPerRadian_deg)},
-          {"camera_moved_sigma_deg", listOf(m.rotation_sigma_rad, kPerRadian_deg)},
+          {"camera_moved_deg", listOf(m.rotation_rad, 1.0 / kDegree)},
+          {"camera_moved_sigma_deg", listOf(m.rotation_sigma_rad, 1.0 / kDegree)},
           {"camera_moved_mm", listOf(m.translation_m, 1e3)},
           {"camera_moved_sigma_mm", listOf(m.translation_sigma_m, 1e3)},
           {"camera_moved_chi_square", m.chi_square},
@@ -154,7 +153,7 @@ void printResult(const Verification& v) {
               1e3 * v.bar.known_m, 1e3 * v.bar.mean_m, 1e3 * v.bar.rms_m, 1e3 * v.bar.worst_m,
               v.bar.count);
   printVector("right camera has turned", v.moved.rotation_rad, v.moved.rotation_sigma_rad,
-              kPerRadian_deg, "deg");
+              1.0 / kDegree, "deg");
   printVector("right camera has shifted", v.moved.translation_m, v.moved.translation_sigma_m, 1e3,
               "mm");
   std::printf(

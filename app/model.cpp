@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <string>
 
 #include "app/options.h"
+#include "core/angle.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "sim/hook_shape.h"
@@ -151,7 +151,7 @@ void convert(const ConvertArguments& arguments) {
   JsonFile json(arguments.json);
   MeshModelOptions options;
   options.scale = arguments.scale;
-  options.feature_angle = arguments.feature_angle_deg * std::numbers::pi / 180.0;
+  options.feature_angle = arguments.feature_angle_deg * kDegree;
   options.chord_tolerance_m = arguments.chord_tolerance_mm / 1e3;
   options.weld_m = arguments.weld_mm / 1e3;
   const MeshModel model = modelFromMesh(loadObj(arguments.file), options, arguments.file);

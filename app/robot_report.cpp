@@ -1,12 +1,11 @@
 #include "app/robot_report.h"
 
 #include <cstdio>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 nlohmann::json listOf(const Eigen::VectorXd& v, double unit = 1.0) {
   const Eigen::VectorXd scaled = v / unit;

@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
@@ -115,12 +116,12 @@ void printCamera(const char* name, const CameraModel& camera, const LensSigma* s
 }
 
 void printPose(const StereoCalibration& c) {
-  const Eigen::VectorXd turn = thetaU(c.rig.c2Mc1.linear()) * 180.0 / std::numbers::pi;
+  const Eigen::VectorXd turn = thetaU(c.rig.c2Mc1.linear()) / kDegree;
   const Eigen::VectorXd shift = 1e3 * c.rig.c2Mc1.translation();
   Eigen::VectorXd turn_sigma;
   Eigen::VectorXd shift_sigma;
   if (c.uncertainty) {
-    turn_sigma = c.uncertainty->rotation_rad * 180.0 / std::numbers::pi;
+    turn_sigma = c.uncertainty->rotation_rad / kDegree;
     shift_sigma = 1e3 * c.uncertainty->translation_m;
   }
   std::printf("left camera in the right one\n");

@@ -21,7 +21,7 @@ CameraModel readCamera(YamlFields& cam) {
     camera.distortion = cam.vector("distortion_coeffs", 4);
   }
   const Eigen::VectorXd size = cam.vector("resolution", 2);
-  if (!(size.minCoeff() >= 1.0 && size.maxCoeff() <= kLargestSide)) {
+  if (!size.allFinite() || size.minCoeff() < 1.0 || size.maxCoeff() > kLargestSide) {
     cam.refuse("resolution", "width and height in pixels");
   }
   camera.width = static_cast<int>(size[0]);

@@ -12,6 +12,7 @@
 #include "calib/solve/chessboard.h"
 #include "calib/solve/circle_grid.h"
 #include "calib/solve/image_health.h"
+#include "calib/solve/small_statistics.h"
 #include "calib/solve/tag_board.h"
 
 namespace ringhook {
@@ -119,10 +120,7 @@ Sharpness sharpnessOf(const GrayImage& image, const Board& board, const BoardSig
   if (blurs.size() < 4) {
     return {};
   }
-  const auto half = static_cast<std::ptrdiff_t>(blurs.size() / 2);
-  std::nth_element(blurs.begin(), blurs.begin() + half, blurs.end());
-  std::nth_element(pitches.begin(), pitches.begin() + half, pitches.end());
-  return {blurs[static_cast<std::size_t>(half)], pitches[static_cast<std::size_t>(half)]};
+  return {median(blurs), median(pitches)};
 }
 
 std::string blurText(double blur_px, double allowed_px) {

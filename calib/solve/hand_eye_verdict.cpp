@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "calib/solve/sentence.h"
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kWellTurned = 15.0 * kDegree;  // RMS of a flange's turns about one axis
 constexpr double kPositionPoint = 16.27;        // chi-square, 3 degrees, 99.9 %
 

@@ -128,16 +128,18 @@ void leaveOut(const std::vector<PointPair>& points, PointFit& fit) {
   fit.heldout_m = rms(missed, fit.used);
 }
 
+// Of a point, expressed in c1, by the small twist of fMc1.
+Eigen::Matrix<double, 3, 6> jacobian(const Vector3d& point_c) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Matrix3d::Identity(), -skew(point_c);
+  return J;
+}
+
 void uncertaintyOf(const std::vector<PointPair>& points, PointFit& fit) {
   Covariance6 H = Covariance6::Zero();
   Vector3d squares = Vector3d::Zero();
   Vector3d middle = Vector3d::Zero();
   double n = 0.0;
-  const auto jacobian = [](const Vector3d& point_c) {  // of the point, expressed in c1, by d
-    Eigen::Matrix<double, 3, 6> J;
-    J << Matrix3d::Identity(), -skew(point_c);
-    return J;
-  };
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (fit.used[i]) {
       const Vector3d& p = points[i].point_c;

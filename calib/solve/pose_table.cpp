@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <numbers>
 
 #include "calib/solve/pose_pairs.h"
 #include "core/error.h"
@@ -11,7 +12,7 @@
 namespace ringhook {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kQuaternionTolerance = 0.01;  // a few printed digits
 
 std::string shortText(double value) {

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "core/angle.h"
+
 namespace ringhook {
 
 /// A number with so many decimals: decimals(3.14159, 2) is "3.14".
@@ -20,8 +22,6 @@ inline std::string decimals(double value, int digits) {
 inline std::string millimetres(double metres) { return decimals(1e3 * metres, 2) + " mm"; }
 
 /// An angle in degrees with its unit.
-inline std::string degrees(double radians) {
-  return decimals(radians * 180.0 / 3.14159265358979323846, 2) + " degrees";
-}
+inline std::string degrees(double radians) { return decimals(radians / kDegree, 2) + " degrees"; }
 
 }  // namespace ringhook

@@ -24,6 +24,11 @@ double relativeUncertainty(const StereoCalibration& c) {
   return std::max(c.uncertainty->focal_px / focal, c.uncertainty->baseline_m / baseline(c.rig));
 }
 
+std::string figuresOf(const StereoCalibration& c) {
+  return fmt::format("reprojection {:.3f} px and held-out rows {:.3f} px", c.rms_px,
+                     c.heldout_vertical_disparity_px);
+}
+
 }  // namespace
 
 std::string toString(Grade grade) {
@@ -46,8 +51,7 @@ Verdict judge(const StereoCalibration& c) {
   const double rows = c.heldout_vertical_disparity_px;
   const double worst = std::max(c.rms_px, rows);
   const double relative = relativeUncertainty(c);
-  const std::string figures =
-      fmt::format("reprojection {:.3f} px and held-out rows {:.3f} px", c.rms_px, rows);
+  const std::string figures = figuresOf(c);
   if (!(worst <= kUsable_px)) {
     return {Grade::kPoor,
             figures + fmt::format(", where at most {:.1f} px can be used: look for blur, a "

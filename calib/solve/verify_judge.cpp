@@ -4,14 +4,13 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "prediction/chi_square.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kPerRadian_deg = 180.0 / std::numbers::pi;
 constexpr double kAlarm = 1e-3;         // probability of a false alarm by chance
 constexpr double kMuchNoise = 2.0;      // times what the evidence promises
 constexpr double kUsualViews = 12.0;    // of a calibration that does not tell
@@ -49,8 +48,8 @@ std::string moveInWords(const CameraMove& m) {
       "as if the right camera had turned by {:.3f} deg (mostly about its {} axis: {:.3f} +- "
       "{:.3f}) "
       "and shifted by {:.2f} mm against the left one",
-      m.rotation_rad.norm() * kPerRadian_deg, name, m.rotation_rad[axis] * kPerRadian_deg,
-      m.rotation_sigma_rad[axis] * kPerRadian_deg, 1e3 * m.translation_m.norm());
+      m.rotation_rad.norm() / kDegree, name, m.rotation_rad[axis] / kDegree,
+      m.rotation_sigma_rad[axis] / kDegree, 1e3 * m.translation_m.norm());
 }
 
 std::string rowsInWords(const RowDrift& rows) {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "calib/solve/plate_images.h"
 #include "calib/solve/plate_views.h"
@@ -10,6 +9,7 @@
 #include "calib/wizard/arm_poses.h"
 #include "calib/wizard/shot_folder.h"
 #include "calib/wizard/steps.h"
+#include "core/angle.h"
 #include "core/error.h"
 #include "tracking/tag_detector.h"
 
@@ -169,7 +169,7 @@ std::string figures(const HandEyeResult& r) {
                 "  pairs used %zu, rejected %zu\n"
                 "  residual %.3f mm and %.3f deg, held-out %.3f mm",
                 r.errors.size() - r.rejected.size(), r.rejected.size(),
-                1e3 * r.residual.translation_m, 180.0 / std::numbers::pi * r.residual.rotation_rad,
+                1e3 * r.residual.translation_m, r.residual.rotation_rad / kDegree,
                 1e3 * r.heldout.translation_m);
   return text;
 }
@@ -177,14 +177,14 @@ std::string figures(const HandEyeResult& r) {
 std::string zerosText(const JointVector& zeros_rad) {
   std::string text;
   for (const double zero : zeros_rad) {
-    text += fmt::format(" {:.3f}", zero * 180.0 / std::numbers::pi);
+    text += fmt::format(" {:.3f}", zero / kDegree);
   }
   return text;
 }
 
 std::string json(const PlateCalibration& calibration) {
   const HandEyeResult& r = calibration.result;
-  const JointVector zeros_deg = calibration.arm_zeros_rad * 180.0 / std::numbers::pi;
+  const JointVector zeros_deg = calibration.arm_zeros_rad / kDegree;
   const Eigen::Vector3d t = r.pose.camera.translation();
   const Eigen::Quaterniond q(r.pose.camera.linear());
   return nlohmann::json{{"translation_m", {t.x(), t.y(), t.z()}},

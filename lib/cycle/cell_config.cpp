@@ -1,13 +1,10 @@
 #include "cycle/cell_config.h"
 
-#include <numbers>
-
+#include "core/angle.h"
 #include "core/yaml_fields.h"
 
 namespace ringhook {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 HookConfig readHook(YamlFields fields) {
   HookConfig hook;
@@ -15,7 +12,7 @@ HookConfig readHook(YamlFields fields) {
   hook.model = fields.path("model");
   hook.pivot_o = fields.vector("pivot_o_m", 3);
   hook.pendulum_length_m = fields.number("pendulum_length_m", 0.01, 10.0);
-  hook.swing_max_rad = fields.number("swing_max_deg", 0.0, 45.0) * kRadPerDeg;
+  hook.swing_max_rad = fields.number("swing_max_deg", 0.0, 45.0) * kDegree;
   fields.refuseUnknown();
   return hook;
 }
@@ -44,8 +41,8 @@ ArmConfig readArm(YamlFields fields) {
     fields.refuse("ring_e_quaternion_xyzw", "a unit quaternion");
   }
   arm.eMr = makePose(position, Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
-  arm.load_rad = fields.vector("load_deg", 6) * kRadPerDeg;
-  arm.standby_rad = fields.vector("standby_deg", 6) * kRadPerDeg;
+  arm.load_rad = fields.vector("load_deg", 6) * kDegree;
+  arm.standby_rad = fields.vector("standby_deg", 6) * kDegree;
   arm.speed_fraction = fields.number("speed_fraction", 0.01, 1.0);
   arm.gripper_time_s = fields.number("gripper_time_s", 0.0, 10.0);
   arm.delay_s = fields.number("delay_ms", 0.0, 200.0) * 1e-3;

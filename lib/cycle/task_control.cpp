@@ -40,8 +40,7 @@ bool TaskControl::hookDone() const {
 TaskCommand TaskControl::step(const ArmState& state, const std::optional<HookFilterState>& hook) {
   if (fresh_) {
     fresh_ = false;
-    result_.started = state.time;
-    phase_start_ = state.time;
+    result_.started = phase_start_ = state.time;
   }
   hook_seen_ = hook.has_value();
   if (hook) {

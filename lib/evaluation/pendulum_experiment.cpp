@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "evaluation/hanging_hook.h"
 #include "evaluation/pendulum_theory.h"
 #include "sim/hook_body.h"
@@ -17,7 +18,6 @@ constexpr double kReportDamping = 0.5;  // [1/s]
 constexpr double kMinute = 60.0;        // [s]
 constexpr double kTraced = 20.0;        // [s]
 constexpr double kCompared = 10.0;      // [s]
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 using Samples = std::vector<PendulumSample>;
 

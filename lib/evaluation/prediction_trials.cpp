@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "sim/cell_options.h"
 #include "sim/hook_body.h"
 
@@ -22,7 +23,7 @@ HookDraw drawHook(const TrialOptions& options, std::mt19937& random) {
   hook.pivot_height = 0.45 * (1.0 + options.length_spread * even(random));
   hook.friction = nominal.pivot_friction * (1.0 + nominal.damping_spread * even(random));
   hook.damping = nominal.pivot_damping * (1.0 + nominal.damping_spread * even(random));
-  const double amplitude = options.swing_deg * std::numbers::pi / 180.0;
+  const double amplitude = options.swing_deg * kDegree;
   for (int axis = 0; axis < 2; ++axis) {
     const double phase = std::numbers::pi * even(random);
     hook.angle[axis] = amplitude * std::cos(phase);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/atomic_file.h"
 #include "evaluation/overlay.h"
 #include "evaluation/report_page.h"
@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr auto kFramesHeader =
     "time_s,frame,state,reason,x,y,z,qx,qy,qz,qw,var_x_m2,var_y_m2,var_z_m2,var_rx_rad2,"
     "var_ry_rad2,var_rz_rad2,rms_px,features,position_error_mm,rotation_error_deg,left_x_px,"
@@ -123,7 +122,7 @@ std::vector<ReportChart> chartsOf(const SequenceOutputs& outputs) {
       return f.position_error ? *f.position_error * 1e3 : kNone;
     }));
     charts.push_back(methodsChart("rotation error [deg]", outputs.runs, [](const FrameRecord& f) {
-      return f.rotation_error ? *f.rotation_error * kDegrees : kNone;
+      return f.rotation_error ? *f.rotation_error / kDegree : kNone;
     }));
   }
   charts.push_back(
@@ -194,7 +193,7 @@ std::string framesCsv(const MethodRun& run) {
     text += stamp + std::string(",") + std::to_string(frame.frame) +
             (frame.fix ? ",tracked," : ",lost,") + withoutCommas(frame.reason) + poseFields(frame);
     text += field(frame.position_error ? *frame.position_error * 1e3 : kNone);
-    text += field(frame.rotation_error ? *frame.rotation_error * kDegrees : kNone);
+    text += field(frame.rotation_error ? *frame.rotation_error / kDegree : kNone);
     text += windowFields(frame.left_window) + windowFields(frame.right_window);
     for (const double seconds : {frame.read_s, frame.rectify_s, frame.track_s, frame.fix_s}) {
       text += field(seconds * 1e3);

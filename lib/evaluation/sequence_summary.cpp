@@ -1,13 +1,13 @@
 #include "evaluation/sequence_summary.h"
 
 #include <cstdio>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
 
 constexpr double kMillimetres = 1e3;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 StageTimes stageTimes(const std::vector<FrameRecord>& frames, double FrameRecord::*seconds) {
   std::vector<double> times_ms;
@@ -44,7 +44,7 @@ SequenceSummary summarise(const MethodRun& run, double gate_mm) {
   for (const auto& frame : run.frames) {
     if (frame.position_error) {
       position.push_back(*frame.position_error * kMillimetres);
-      rotation.push_back(*frame.rotation_error * kDegrees);
+      rotation.push_back(*frame.rotation_error / kDegree);
       wrong += position.back() > gate_mm ? 1 : 0;
     }
   }

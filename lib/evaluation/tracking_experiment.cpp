@@ -33,13 +33,11 @@ constexpr double kMilli = 1e3;
 /// Where the plates pass in both raw images, with 100 px to spare [px].
 constexpr Window kStrip{0, 620, 2048, 420};
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Steps = std::vector<TrackingStep>;
 
-/// Variance of the speed at the end of the sequence that is due to its wandering [m^2/s^2].
-constexpr double kWandered = (kWander * kSpeed) * (kWander * kSpeed);
-constexpr double kLasts = kPairs - 1;  // [s]
+constexpr double kWandered = (kWander * kSpeed) * (kWander * kSpeed);  // by the end [m^2/s^2]
+constexpr double kLasts = kPairs - 1;                                  // [s]
 
 /// A point of nearly constant velocity, state (p, v), as constant_acceleration.h has (p, v, a).
 class VelocityFilter {

@@ -148,7 +148,7 @@ PositionTrack readPositionTrack(const fs::path& file) {
   PositionTrack track = numbersInLine(file) == kTum ? readTimed(file) : readKitti(file);
   constexpr double kBeyond = 1e9;
   for (const Eigen::Vector3d& position : track.positions) {
-    if (!(position.cwiseAbs().maxCoeff() <= kBeyond)) {
+    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kBeyond) {
       throw InputError(file.string() + ": expected positions in metres, at most 1e9");
     }
   }

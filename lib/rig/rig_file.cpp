@@ -1,8 +1,8 @@
 #include <Eigen/SVD>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
+#include "core/angle.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "rig/opencv_keys.h"
@@ -14,8 +14,6 @@ namespace ringhook {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The rotation closest to a matrix already checked to be nearly one (polar decomposition).
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {

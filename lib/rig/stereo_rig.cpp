@@ -79,7 +79,8 @@ void checkRig(const StereoRig& rig, const std::string& where) {
       refuse(where, "the translation in fMc1", "finite [m]");
     }
   }
-  if (!(rig.joint_zeros_rad.cwiseAbs().maxCoeff() < kLargestZero)) {
+  if (!rig.joint_zeros_rad.allFinite() ||
+      rig.joint_zeros_rad.cwiseAbs().maxCoeff() >= kLargestZero) {
     refuse(where, "joint_zeros_deg", "six angles below 5 degrees");
   }
   const auto checkFinite = [&](double value, const char* key) {

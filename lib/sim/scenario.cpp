@@ -1,14 +1,13 @@
 #include "sim/scenario.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/yaml_fields.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 constexpr double kLongest = 1e4;  // [s]; no run of a cell is longer
 

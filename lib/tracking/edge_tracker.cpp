@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "tracking/edge_site.h"
 #include "tracking/visp_edges.h"
@@ -148,7 +148,7 @@ struct EdgeTracker::Impl {
     quality.rms_px = std::sqrt(squares / std::max(1, quality.good_sites));
     const double refined = std::max<double>(1.0, static_cast<double>(residuals.size()));
     quality.spread_px = robustSigma(residuals);
-    quality.direction_deg = directions / refined * 180.0 / std::numbers::pi;
+    quality.direction_deg = directions / refined / kDegree;
     if (const auto doubt = disbelief()) {
       return *doubt;
     }

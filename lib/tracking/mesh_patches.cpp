@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kCoplanarAngle = std::numbers::pi / 180.0;  // beyond it faces are not one facet
+constexpr double kCoplanarAngle = kDegree;  // beyond it faces are not one facet
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

@@ -6,30 +6,28 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <numbers>
 
 #include "../unit/calib_robot/rendered_cell.h"
 #include "calib/solve/joint_zeros.h"
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double positionError(const Pose& a, const Pose& b) {
   return 1e3 * (a.translation() - b.translation()).norm();
 }
 
 double angleError(const Pose& a, const Pose& b) {
-  return thetaU(a.linear().transpose() * b.linear()).norm() * kDegrees;
+  return thetaU(a.linear().transpose() * b.linear()).norm() / kDegree;
 }
 
 void printZeros(const JointZeros& zeros, const JointVector& truth) {
   std::printf("        joint zeros, found, sigma, true [deg]:");
   for (int k = 1; k < 5; ++k) {  // those of joints 1 and 6 are camera and plate
-    std::printf("  %.4f %.4f %.4f", kDegrees * zeros.zero_rad[k], kDegrees * zeros.sigma_rad[k],
-                kDegrees * truth[k]);
+    std::printf("  %.4f %.4f %.4f", zeros.zero_rad[k] / kDegree, zeros.sigma_rad[k] / kDegree,
+                truth[k] / kDegree);
   }
   std::printf("\n");
 }
@@ -43,7 +41,7 @@ void printViews(const RenderedCell& cell, const std::vector<PlateView>& views, u
       "seed %u  %zu poses, zeros %s: residual %.3f mm %.4f deg, held out %.3f mm (%.3f per axis), "
       "corners %.3f px, %.3f px with a perfect arm, rejected %zu, %s\n",
       seed, views.size(), c.zeros_used ? "corrected" : "kept", 1e3 * r.residual.translation_m,
-      r.residual.rotation_rad * kDegrees, 1e3 * r.heldout.translation_m,
+      r.residual.rotation_rad / kDegree, 1e3 * r.heldout.translation_m,
       1e3 * r.heldout.translation_m / std::sqrt(3.0), c.rms_px, c.arm_rms_px, r.rejected.size(),
       r.verdict.sentence.c_str());
   std::printf("        camera off by %.3f mm %.4f deg, plate off by %.3f mm %.4f deg\n",

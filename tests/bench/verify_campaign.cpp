@@ -3,17 +3,15 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 
 #include "calib/solve/verify.h"
 #include "calib_check/verify_scene.h"
+#include "core/angle.h"
 
 namespace {
 
 using namespace ringhook;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Row {
   std::string what;

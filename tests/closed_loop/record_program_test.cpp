@@ -5,7 +5,6 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "../unit/app/program.h"
 #include "../unit/camera/scratch_folder.h"
@@ -73,9 +72,8 @@ TEST(RecordProgram, CtrlCBeforeTheFirstFrameNamesNoFolder) {
   const ScratchFolder folder;
   Program program(folder.path(),
                   {"record", "--follow", "marker", "--out", "clip", "--json", "c.json"});
-  while (!fs::exists(folder.path() / ".c.partial.json")) {  // from then on it hears the signal
-    std::this_thread::yield();
-  }
+  // From then on it hears the signal.
+  ASSERT_TRUE(program.waitUntilThereIs(folder.path() / ".c.partial.json"));
   program.signal(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exit_code, 1);

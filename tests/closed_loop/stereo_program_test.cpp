@@ -6,7 +6,6 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "../unit/app/program.h"
 #include "../unit/camera/scratch_folder.h"
@@ -31,9 +30,7 @@ const std::vector<std::string> kLive = {
 TEST(StereoProgram, TakesItsPicturesAndGoesOnAfterCtrlC) {
   const ScratchFolder folder;
   Program begun(folder.path(), kLive);
-  while (!fs::exists(folder.path() / "shots/board/right/0003.png")) {
-    std::this_thread::yield();
-  }
+  ASSERT_TRUE(begun.waitUntilThereIs(folder.path() / "shots/board/right/0003.png"));
   begun.signal(SIGINT);
   const ProgramResult left = begun.wait();
   EXPECT_EQ(left.exit_code, 1);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/angle.h"
 #include "robot/rx60/kinematics.h"
 
 namespace ringhook::rx60 {
@@ -162,7 +163,7 @@ Refusal limitsBroken(const Excess& least) {
   char text[120];
   std::snprintf(text, sizeof text,
                 "outside the joint limits: the best branch exceeds J%d by %.1f deg",
-                least.joint + 1, least.angle * 180.0 / kPi);
+                least.joint + 1, least.angle / kDegree);
   return {text};
 }
 

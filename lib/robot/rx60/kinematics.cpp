@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
+
 namespace ringhook::rx60 {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// One row of the modified Denavit-Hartenberg table, times the joint's rotation.
 Pose craigLink(double sin_alpha, double cos_alpha, double a, double d, double theta) {

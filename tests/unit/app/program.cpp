@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,6 +77,17 @@ bool Program::readMore() {
 bool Program::waitUntilItSays(const std::string& text) {
   while (err_.find(text) == std::string::npos) {
     if (!readMore()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Program::waitUntilThereIs(const std::filesystem::path& file) {
+  constexpr int kLookAgain_ms = 5;
+  while (!std::filesystem::exists(file)) {
+    pollfd said{err_pipe_, POLLIN, 0};
+    if (poll(&said, 1, kLookAgain_ms) > 0 && !readMore()) {
       return false;
     }
   }

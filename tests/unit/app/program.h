@@ -29,6 +29,8 @@ class Program {
 
   /// Waits until it says `text` on standard error; false if it ends without.
   bool waitUntilItSays(const std::string& text);
+  /// Waits until there is such a file; false if it ends without.
+  bool waitUntilThereIs(const std::filesystem::path& file);
   /// On standard error.
   [[nodiscard]] const std::string& saidSoFar() const { return err_; }
   void signal(int number);

@@ -7,20 +7,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "calib/solve/plan_check.h"
 #include "calib/solve/plan_map.h"
 #include "calib/solve/plan_search.h"
+#include "core/angle.h"
 #include "core/error.h"
 #include "rig/camera_model.h"
 #include "stereo/joint_pose.h"
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 PlanView crossingRig(double baseline_m, double distance_m) {
   return PlanView(

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "calib/solve/verify.h"
 #include "calib_check/verify_scene.h"
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
@@ -56,7 +55,7 @@ TEST(VerifyCalibrated, RaisesHardlyAnyFalseAlarm) {
 }
 
 TEST(VerifyCalibrated, StillFindsTwoHundredthsOfADegree) {
-  constexpr double kTurn = 0.02 * std::numbers::pi / 180.0;
+  constexpr double kTurn = 0.02 * kDegree;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const StereoRig rig = calibrated(seed);
     for (int axis = 0; axis < 3; ++axis) {

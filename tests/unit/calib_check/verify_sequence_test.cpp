@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <numbers>
 
 #include "calib/solve/verify_views.h"
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -36,7 +36,7 @@ TEST(VerifySequence, HoldsTheRigThatTookItAndMeasuresTheTagsDistance) {
 
 TEST(VerifySequence, FindsARigTurnedAboutX) {
   StereoRig rig = loadRig(kClip / "rig.yaml");
-  const double turn = 0.05 * std::numbers::pi / 180.0;
+  const double turn = 0.05 * kDegree;
   rig.c2Mc1 = makePoseThetaU({0, 0, 0}, {turn, 0, 0}) * rig.c2Mc1;
   const Verification v = verifyRig(rig, sight(rig, 12));
   EXPECT_EQ(v.state, RigState::kMoved);

@@ -7,15 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "calib_check/verify_scene.h"
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 using testing::HasSubstr;
 
 TEST(Verify, HoldsARigThatHasNotChangedForManySeeds) {

@@ -8,6 +8,7 @@
 
 #include "calib/solve/plate_images.h"
 #include "camera/replay_camera.h"
+#include "core/angle.h"
 
 namespace ringhook {
 namespace {
@@ -53,15 +54,15 @@ TEST(FrankaSet, AgreesWithThePublishedPoseAndLeavesLess) {
   EXPECT_LT(1e3 * (fMc1.translation() - published.translation()).norm(), 1.0);
   // Corners half a pixel off, as the published ones are in our convention, turn the camera by 0.07
   // degrees; the rest is within what eight pictures of one small tag tell.
-  EXPECT_LT(angle * 57.29578, 0.2);
+  EXPECT_LT(angle / kDegree, 0.2);
   EXPECT_LT(angle, c.result.sigmas.value().camera_rad);
   EXPECT_LT(1e3 * c.result.residual.translation_m, 1.8);
   // The plain residual counts views that tell the tag's tilt badly as much as the others; a closed
   // form that does so too stays below the published 0.512 degrees.
   EXPECT_EQ(c.result.closed_forms[5].name, "Shah");
-  EXPECT_LT(c.result.closed_forms[5].rms.rotation_rad * 57.29578, 0.51);
+  EXPECT_LT(c.result.closed_forms[5].rms.rotation_rad / kDegree, 0.51);
   EXPECT_LT(1e3 * c.result.closed_forms[5].rms.translation_m, 1.8);
-  EXPECT_LT(c.result.residual.rotation_rad * 57.29578, 0.6);
+  EXPECT_LT(c.result.residual.rotation_rad / kDegree, 0.6);
   EXPECT_EQ(c.result.verdict.grade, Grade::kPoor) << c.result.verdict.sentence;
 }
 

@@ -1,9 +1,9 @@
 #include "cycle/cell_config.h"
+#include "core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <ostream>
 
 #include "../camera/scratch_folder.h"
@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 std::string loadError(const fs::path& file) {
   return messageOf<InputError>([&] { (void)loadCellConfig(file); });
@@ -50,7 +48,7 @@ TEST(CellConfig, DefaultCellSaysWhatItsFileSays) {
   EXPECT_EQ(cell.hook.model, fs::path(RINGHOOK_SOURCE_DIR "/datasets/models/hook/hook.cao"));
   EXPECT_EQ(cell.hook.pivot_o, Eigen::Vector3d(0.0, -0.0263, 0.450));
   EXPECT_DOUBLE_EQ(cell.hook.pendulum_length_m, 0.356);
-  EXPECT_DOUBLE_EQ(cell.hook.swing_max_rad, 5.0 * kDeg);
+  EXPECT_DOUBLE_EQ(cell.hook.swing_max_rad, 5.0 * kDegree);
   EXPECT_EQ(cell.belt.pivot_start_f, Eigen::Vector3d(0.42, 0.0, 1.05));
   EXPECT_EQ(cell.belt.direction_f, Eigen::Vector3d::UnitY());
   EXPECT_DOUBLE_EQ(cell.belt.search_from_m, -0.44);
@@ -61,8 +59,8 @@ TEST(CellConfig, DefaultCellSaysWhatItsFileSays) {
 
 TEST(CellConfig, MillimetresMillisecondsAndDegreesBecomeSi) {
   const CellConfig cell = test::defaultCell();
-  EXPECT_NEAR(cell.arm.load_rad[0], -81.3 * kDeg, 1e-15);
-  EXPECT_NEAR(cell.arm.standby_rad[5], 4.0 * kDeg, 1e-15);
+  EXPECT_NEAR(cell.arm.load_rad[0], -81.3 * kDegree, 1e-15);
+  EXPECT_NEAR(cell.arm.standby_rad[5], 4.0 * kDegree, 1e-15);
   EXPECT_DOUBLE_EQ(cell.task.hover_m, 0.045);
   EXPECT_DOUBLE_EQ(cell.task.align_tolerance_m, 0.003);
   EXPECT_DOUBLE_EQ(cell.task.abort_tolerance_m, 0.010);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/angle.h"
 #include "evaluation/hanging_hook.h"
 #include "evaluation/pendulum_theory.h"
 #include "sim/cell_server.h"
@@ -22,7 +23,7 @@ CellOptions liveCell(double about_x, double about_y) {
 }
 
 TEST(LiveStep, AHookThatSwingsInBothPlanesKeepsItsEnergyForAMinute) {
-  const double swing = 15.0 * kPi / 180.0;
+  const double swing = 15.0 * kDegree;
   const HangingHookRun run = runHangingHook(liveCell(swing, swing), 60.0);
   const auto [least, most] = std::minmax_element(run.energy.begin(), run.energy.end());
   std::printf("energy within %.2e and %.2e of its start over 60 s\n",

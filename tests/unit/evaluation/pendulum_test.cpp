@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/angle.h"
 #include "evaluation/hanging_hook.h"
 #include "evaluation/pendulum_experiment.h"
 #include "evaluation/pendulum_theory.h"
@@ -83,7 +84,7 @@ TEST(PendulumWorld, DampedSmallSwingsFollowTheClosedForm) {
 }
 
 TEST(HangingHook, KeepsItsEnergyForAMinuteSwingingInBothPlanes) {
-  const double swing = 15.0 * kPi / 180.0;
+  const double swing = 15.0 * kDegree;
   const HangingHookRun run = runHangingHook(hangingHookCell(swing, swing), 60.0);
   double least = run.energy.front();
   double most = least;

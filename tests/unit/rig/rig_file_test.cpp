@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <sstream>
 
@@ -155,6 +156,8 @@ TEST_F(RigFile, HoldsJointZerosOnlyIfThereAreAny) {
   edit("joint_zeros_deg: !!opencv-matrix\n   rows: 6\n   cols: 1\n   dt: d\n   data: [ ",
        "joint_zeros_deg: !!opencv-matrix\n   rows: 6\n   cols: 1\n   dt: d\n   data: [ 9");
   EXPECT_THAT(refusal(), testing::HasSubstr("six angles below 5 degrees"));
+  rig.joint_zeros_rad[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(checkRig(rig, "rig.yaml"), InputError);
 }
 
 TEST_F(RigFile, RefusesWhatIsNoRig) {

@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "robot/rx60/kinematics.h"
 
 #include <gtest/gtest.h>
@@ -106,12 +107,11 @@ TEST(Rx60LinkPoints, KeepTheLengthsOfTheArm) {
 }
 
 TEST(Rx60Limits, AreThePublishedOnes) {
-  const double degree = std::numbers::pi / 180.0;
   const JointLimits published = limits();
-  EXPECT_NEAR(published.upper(0), 160.0 * degree, 1e-12);
-  EXPECT_NEAR(published.lower(4), -109.5 * degree, 1e-12);
-  EXPECT_NEAR(published.upper(4), 120.5 * degree, 1e-12);
-  EXPECT_NEAR(published.velocity(5), 700.0 * degree, 1e-12);
+  EXPECT_NEAR(published.upper(0), 160.0 * kDegree, 1e-12);
+  EXPECT_NEAR(published.lower(4), -109.5 * kDegree, 1e-12);
+  EXPECT_NEAR(published.upper(4), 120.5 * kDegree, 1e-12);
+  EXPECT_NEAR(published.velocity(5), 700.0 * kDegree, 1e-12);
   EXPECT_TRUE((published.acceleration.array() > 0.0).all());
 }
 

@@ -1,4 +1,5 @@
 #include "servo/pose_servo.h"
+#include "core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "core/error.h"
@@ -112,7 +112,7 @@ TEST(SwingingHook, TellsTheVelocityOfItsOwnPoses) {
 TEST(PoseServo, FollowsAHookThatTravelsAndSwingsWithinATenthOfAMillimetre) {
   const Lag lag = follow(SwingingHook(), placeAt({0.0, 0.035, 0.007}), true);
   std::printf("lag with feed-forward: %.4f mm, %.5f deg\n", 1e3 * lag.translation,
-              lag.rotation * 180.0 / std::numbers::pi);
+              lag.rotation / kDegree);
   EXPECT_LT(lag.translation, 1e-4);
   EXPECT_LT(lag.rotation, 1e-3);
 }

@@ -1,4 +1,5 @@
 #include "sim/hook_air.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,6 @@
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// One hook on a standing belt that swings in one plane and is braked by the air alone.
 CellOptions inAir(int axis, double swing) {

@@ -1,6 +1,7 @@
 // The simulated controller against the VAL3 server's behaviour, byte by byte.
 
 #include "sim/rx60_controller.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -259,7 +260,7 @@ TEST_F(Rx60Velocity, IsRefusedBeforeTheFirstStatus) {
 TEST_F(Rx60Velocity, NothingGoesFasterThanNominal) {
   makeVelocityReady();
   command(50.0);
-  EXPECT_NEAR(joint1(), 287.0 * 3.14159265358979 / 180.0 * kTick, 1e-6);
+  EXPECT_NEAR(joint1(), 287.0 * kDegree * kTick, 1e-6);
 }
 
 TEST_F(Rx60Velocity, InfiniteCommandStands) {

@@ -1,4 +1,5 @@
 #include "sim/scenario.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 std::filesystem::path written(const std::string& text) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "sim/cell_draw.h"
 #include "sim/cell_world.h"
 #include "sim/hook_body.h"
@@ -15,8 +16,6 @@
 
 namespace ringhook {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Scenario shipped(const std::string& name) {
   return loadScenario(std::filesystem::path(RINGHOOK_SOURCE_DIR) / "app/config/scenarios" /

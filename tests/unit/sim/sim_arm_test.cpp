@@ -1,4 +1,5 @@
 #include "sim/sim_arm.h"
+#include "core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +78,7 @@ TEST(SimArm, LateStatesTellWhereTheJointsWereThatMuchBefore) {
 
 TEST(SimArm, RefusesAVelocityBeyondAJointsRange) {
   CellOptions options = exactArm();
-  options.arm.initial_joints[4] = 120.4 * std::numbers::pi / 180.0;
+  options.arm.initial_joints[4] = 120.4 * kDegree;
   CellWorld world(options);
   SimArm arm(world);
   JointVector command = JointVector::Zero();

@@ -1,11 +1,11 @@
 #include "tracking/edge_tracker.h"
+#include "core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <random>
 
 #include "core/error.h"
@@ -31,7 +31,7 @@ RectifiedFrame monoFrame(const PinholeView& camera, GrayImage image, int number)
   return frame;
 }
 
-double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+double degrees(double radians) { return radians / kDegree; }
 
 TEST(EdgeTracker, FollowsVispsCubeThroughTheWholeSequence) {
   const fs::path folder = vispData() / "mbt/cube";

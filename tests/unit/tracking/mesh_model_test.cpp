@@ -1,4 +1,5 @@
 #include "tracking/mesh_model.h"
+#include "core/angle.h"
 
 #include <gmock/gmock.h>
 
@@ -157,7 +158,7 @@ TEST(MeshModel, TheFeatureAngleDecides) {
   const std::string hexagon = prism(test::circle(0.05, 6), 0.1, false);  // sides meet at 60 degrees
   MeshModelOptions options;
   const auto lines = [&](double degrees) {
-    options.feature_angle = degrees * std::numbers::pi / 180.0;
+    options.feature_angle = degrees * kDegree;
     return modelFromMesh(parseObj(hexagon, "hexagon.obj"), options, "hexagon.obj").lines;
   };
   EXPECT_EQ(lines(30), 18);
