@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench_arm.h"
@@ -40,6 +41,12 @@ class Served {
   /// From now on ticks are counted.
   void begin() { counting_ = true; }
   void pause() { counting_ = false; }
+  /// Commands that the client has left out so far; to be told once a vision period, by one thread.
+  void leftOut(std::int64_t count) {
+    if (std::exchange(left_out_, count) != count) {
+      left_out_at_.push_back(Clock::now());
+    }
+  }
   [[nodiscard]] rx60::ControllerAddress address() const {
     rx60::ControllerAddress address;
     address.motion_port = server_->port(Rx60Socket::kMotion);
@@ -59,8 +66,10 @@ class Served {
     }
     std::printf("%s; ticks the server itself left out: %lld\n", all.runs.empty() ? " none" : "",
                 static_cast<long long>(server_->lateTicks()));
-    std::printf("%-26s %6zu of these ticks,        %6zu without a command\n",
-                "  while the machine ran", awake.ticks, awake.missed);
+    std::printf(
+        "%-26s %6zu of these ticks,        %6zu without a command, %zu of them left out on "
+        "purpose\n",
+        "  while the machine ran", awake.ticks, awake.missed, awake.left_out);
   }
 
  private:
@@ -71,7 +80,8 @@ class Served {
   struct Tally {
     std::size_t ticks = 0;
     std::size_t missed = 0;
-    std::map<int, int> runs;  ///< how often so many ticks in a row were missed
+    std::size_t left_out = 0;  ///< of these, because the client sent none, see backlog_guard.h
+    std::map<int, int> runs;   ///< how often so many ticks in a row were missed
   };
 
   void look() {
@@ -83,6 +93,11 @@ class Served {
   }
   static double share(std::size_t part, std::size_t all) {
     return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
+  }
+  /// Whether the client was found to have left a command out soon after.
+  [[nodiscard]] bool leftOutAbout(Clock::time_point tick) const {
+    const auto found = std::ranges::lower_bound(left_out_at_, tick - kTick);
+    return found != left_out_at_.end() && *found < tick + 2 * kVisionPeriod;
   }
   /// Of all ticks; with a machine, of those in whose last two periods no processor stood still:
   /// the feedback that a command answers is up to two periods older than the tick that takes it.
@@ -100,6 +115,7 @@ class Served {
       }
       ++tally.ticks;
       tally.missed += tick.missed ? 1 : 0;
+      tally.left_out += tick.missed && leftOutAbout(tick.time) ? 1 : 0;
       run += tick.missed ? 1 : 0;
       if (!tick.missed) {
         end_run();
@@ -117,6 +133,8 @@ class Served {
   std::atomic<bool> counting_ = false;
   Rx60Counts last_;
   std::vector<Tick> ticks_;
+  std::int64_t left_out_ = 0;
+  std::vector<Clock::time_point> left_out_at_;
   std::thread thread_;
 };
 
@@ -133,6 +151,7 @@ void serveOurs(Served& served, double seconds) {
       served.begin();
     }
     command(arm, targetAt(std::chrono::duration<double>(next - begin).count()));
+    served.leftOut(arm.report().left_out);
     next += kVisionPeriod;
     std::this_thread::sleep_until(next);
   }
