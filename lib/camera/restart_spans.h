@@ -43,7 +43,7 @@ class RestartSpans {
     Time from;
     Time until;
   };
-  static constexpr std::size_t kRemembered = 16;  // more than images wait for a partner
+  static constexpr std::size_t kRemembered = 16;  // an image waits through one or two at most
 
   mutable std::mutex mutex_;
   std::deque<Span> spans_;

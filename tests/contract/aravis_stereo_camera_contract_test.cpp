@@ -124,7 +124,8 @@ TEST(AravisStereoCamera, EveryPixelIsOfTheRegionThatItsFrameNames) {
     ASSERT_EQ(frame->left.pixels, pattern(0, frame->left_window).pixels) << i;
     ASSERT_EQ(frame->right.pixels, pattern(1, frame->right_window).pixels) << i;
   }
-  // How many stay alone depends on the machine: the served cameras leave out what they are late for.
+  // How many stay alone depends on the machine: the served cameras leave out what they are late
+  // for.
 }
 
 TEST(AravisStereoCamera, StampsAreTheExposuresOnTheHostsSteadyClock) {
