@@ -4,7 +4,7 @@
 /// Was the machine there at all? On a shared host a processor is taken away for milliseconds, and
 /// no program that runs on it can answer meanwhile. What a client misses at such a moment says
 /// nothing of the client. So a thread on each processor, before all others there, does nothing but
-/// wake twice a millisecond: where it wakes late, the processor stood still.
+/// wake once a millisecond: where it wakes late, the processor stood still.
 
 #include <atomic>
 #include <chrono>

@@ -25,15 +25,8 @@ CameraModel camera() {
 // The board's middle before the camera, tilted.
 Pose held(const Board& board, double distance_m, double tilt_rad,
           const Eigen::Vector2d& aside_m = {0, 0}) {
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();
-  Eigen::Vector3d high = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : board.points()) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
   Pose cMt = makePoseThetaU({0, 0, 0}, {tilt_rad, 0.6 * tilt_rad, 0.1});
-  cMt.translation() = Eigen::Vector3d(aside_m.x(), aside_m.y(), distance_m) -
-                      cMt * Eigen::Vector3d(0.5 * (low + high));
+  cMt.translation() = Eigen::Vector3d(aside_m.x(), aside_m.y(), distance_m) - cMt * middleOf(board);
   return cMt;
 }
 

@@ -1,6 +1,7 @@
 #include "board_scene.h"
 
 #include <cmath>
+#include <limits>
 #include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <random>
@@ -197,6 +198,16 @@ StereoViews simulatedViews(int count, const Board& board, double sigma_px, std::
     views.usable.push_back(view);
   }
   return views;
+}
+
+Eigen::Vector3d middleOf(const Board& board) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
+  Eigen::Vector3d high = -low;
+  for (const Eigen::Vector3d& p : board.points()) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return 0.5 * (low + high);
 }
 
 double boardSag(const Board& board, double bowl_m) {

@@ -21,6 +21,9 @@ StereoRig knownRig();
 StereoViews simulatedViews(int count, const Board& board, double sigma_px, std::uint32_t seed,
                            double tilt_rad = 0.5, double bowl_m = 0.0);
 
+/// Midway between the outermost points of the print, in t [m].
+Eigen::Vector3d middleOf(const Board& board);
+
 /// Height of a bowl z = depth (r / R)^2, R its outermost corner: mean of the four outer corners
 /// less the mean of the two in the middle of the rows [m], of a 9x6 board.
 double boardSag(const Board& board, double bowl_m);

@@ -29,19 +29,13 @@ StereoRig drawnRig() {
 
 // The board's middle before both cameras, tilted in another direction each time.
 Pose heldAt(const Board& board, int view) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e3);
-  Eigen::Vector3d high = -low;
-  for (const Eigen::Vector3d& p : board.points()) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
   const double direction = 2.4 * view;
   const Pose turned =
       makePoseThetaU({0, 0, 0}, {0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.1});
   const Eigen::Vector3d middle(0.04 + 0.03 * std::cos(1.7 * view), 0.03 * std::sin(1.7 * view),
                                0.48 + 0.02 * (view % 4));
   Pose c1Mt = turned;
-  c1Mt.translation() = middle - turned * Eigen::Vector3d(0.5 * (low + high));
+  c1Mt.translation() = middle - turned * middleOf(board);
   return c1Mt;
 }
 
