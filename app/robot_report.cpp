@@ -42,6 +42,16 @@ nlohmann::json formsOf(const HandEyeResult& r) {
   return list;
 }
 
+nlohmann::json weighingsOf(const HandEyeResult& r) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const WeighedFit& fit : r.weighings) {
+    list.push_back({{"name", toString(fit.weights)},
+                    {"heldout_mm", 1e3 * fit.heldout.translation_m},
+                    {"heldout_deg", fit.heldout.rotation_rad / kDegree}});
+  }
+  return list;
+}
+
 void printPose(const char* name, const Pose& pose) {
   const Eigen::Vector3d t = pose.translation();
   const Eigen::Vector3d w = thetaU(pose.linear());
@@ -71,6 +81,18 @@ void printForms(const HandEyeResult& r) {
   }
 }
 
+void printWeights(const HandEyeResult& r) {
+  std::printf("weights     %s", toString(r.weights).c_str());
+  if (!r.weighings.empty() && r.weights != r.weighings.front().weights) {
+    std::printf(": pairs left out are predicted clearly better by it");
+  }
+  std::printf("\n");
+  for (const WeighedFit& fit : r.weighings) {
+    std::printf("            held out %.3f mm, %.3f degrees: %s\n", 1e3 * fit.heldout.translation_m,
+                fit.heldout.rotation_rad / kDegree, toString(fit.weights).c_str());
+  }
+}
+
 }  // namespace
 
 nlohmann::json summaryOf(const HandEyeResult& r) {
@@ -87,6 +109,8 @@ nlohmann::json summaryOf(const HandEyeResult& r) {
                       {"heldout_mm", 1e3 * r.heldout.translation_m},
                       {"heldout_deg", r.heldout.rotation_rad / kDegree},
                       {"solver", r.solver},
+                      {"weights", toString(r.weights)},
+                      {"weighings", weighingsOf(r)},
                       {"closed_forms", formsOf(r)},
                       {"pairs_used", r.used.size() - r.rejected.size()},
                       {"rejected_pairs", rejectedOf(r.rejected)},
@@ -155,6 +179,7 @@ void printResult(const HandEyeResult& r, const std::vector<PosePair>& pairs) {
   printPose(to_hand ? "eMt" : "fMt", r.pose.target);
   std::printf("pairs used  %zu, rejected %zu; started from %s\n", r.used.size() - r.rejected.size(),
               r.rejected.size(), r.solver.c_str());
+  printWeights(r);
   std::printf("residual    %.3f mm, %.3f degrees (RMS length and angle)\n",
               1e3 * r.residual.translation_m, r.residual.rotation_rad / kDegree);
   if (r.sigmas) {

@@ -63,19 +63,19 @@ HandEyeSigmas larger(const HandEyeSigmas& a, const HandEyeSigmas& b) {
 
 // Every used pair left out once: its error, and the jackknife's covariance of (a, b).
 Covariance12 leaveOut(const std::vector<PosePair>& pairs, HandEyeResult& result) {
+  const std::vector<HandEye> without = refitsWithoutEach(pairs, result.setup, result.pose,
+                                                         result.used, result.noise, result.weights);
   std::vector<Eigen::Matrix<double, 12, 1>> changes;
   result.left_out.clear();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!result.used[i]) {
       continue;
     }
-    std::vector<bool> used = result.used;
-    used[i] = false;
-    const HandEye without = refitHandEye(pairs, result.setup, result.pose, used, result.noise);
-    result.left_out.push_back(pairError(without, pairs[i], result.setup));
+    const HandEye& other = without[changes.size()];
+    result.left_out.push_back(pairError(other, pairs[i], result.setup));
     Eigen::Matrix<double, 12, 1> change;
-    change << logSe3(result.pose.camera.inverse() * without.camera),
-        logSe3(result.pose.target.inverse() * without.target);
+    change << logSe3(result.pose.camera.inverse() * other.camera),
+        logSe3(result.pose.target.inverse() * other.target);
     changes.push_back(change);
   }
   const auto n = static_cast<double>(changes.size());
@@ -123,21 +123,39 @@ void compareClosedForms(const std::vector<PosePair>& pairs, HandEyeResult& resul
 }
 
 // The best starts refined; the one that leaves the least median error.
-void refineBest(const std::vector<PosePair>& pairs, const std::vector<Start>& starts,
-                HandEyeResult& result) {
+HandEyeFit refineBest(const std::vector<PosePair>& pairs, const std::vector<Start>& starts,
+                      HandEyeResult& result) {
+  HandEyeFit best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(kRefinedStarts, starts.size()); ++i) {
-    const HandEyeFit fit = fitHandEye(pairs, result.setup, starts[i].pose);
+    HandEyeFit fit = fitHandEye(pairs, result.setup, starts[i].pose);
     const double median_m = medianError(fit.pose, pairs, result.setup);
     if (median_m < least) {
       least = median_m;
-      result.pose = fit.pose;
-      result.used = fit.used;
-      result.noise = fit.noise;
-      result.covariance = fit.covariance;
+      best = std::move(fit);
       result.solver = starts[i].name;
     }
   }
+  return best;
+}
+
+// The fit as believed, or under the weights that predict pairs left out clearly better.
+void takeFit(const std::vector<PosePair>& pairs, const HandEyeFit& fit, HandEyeResult& result) {
+  result.pose = fit.pose;
+  result.used = fit.used;
+  result.noise = fit.noise;
+  result.covariance = fit.covariance;
+  result.weights = believedWeights(pairs);
+  const auto kept = std::count(fit.used.begin(), fit.used.end(), true);
+  if (!fit.covariance || kept < static_cast<std::ptrdiff_t>(kFewestToWeigh)) {
+    return;
+  }
+  result.weighings = fitInEveryWay(pairs, result.setup, fit);
+  const WeighedFit& chosen = result.weighings[chosenFit(result.weighings)];
+  result.pose = chosen.pose;
+  result.noise = chosen.noise;
+  result.covariance = chosen.covariance;
+  result.weights = chosen.weights;
 }
 
 }  // namespace
@@ -153,7 +171,7 @@ HandEyeResult calibrateRobotCamera(const std::vector<PosePair>& pairs, EyeSetup 
     throw Error("no closed form solves these pairs: " + motionAdvice(pairs));
   }
   hook(0.3, "refining");
-  refineBest(pairs, starts, result);
+  takeFit(pairs, refineBest(pairs, starts, result), result);
   hook(0.6, "other conventions");
   result.better_convention = betterConvention(pairs, setup, medianError(result.pose, pairs, setup));
   hook(0.8, "leaving pairs out");

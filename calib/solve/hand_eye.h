@@ -12,6 +12,7 @@
 
 #include "calib/solve/closed_forms.h"
 #include "calib/solve/hand_eye_fit.h"
+#include "calib/solve/pair_weights.h"
 #include "calib/solve/stereo_calibration.h"
 
 namespace ringhook {
@@ -19,6 +20,8 @@ namespace ringhook {
 /// Two pairs determine the twelve unknowns at best, a third would contradict, a fourth tells who is
 /// wrong.
 constexpr std::size_t kFewestPairs = 4;
+/// Fewer pairs left out one by one tell nothing of weights.
+constexpr std::size_t kFewestToWeigh = 6;
 
 /// A closed form on all pairs, as it came.
 struct ClosedFormResult {
@@ -56,8 +59,10 @@ struct HandEyeResult {
   std::optional<Covariance12> covariance;  ///< of (a, b), see hand_eye_fit.h; model's
   std::optional<HandEyeSigmas> sigmas;     ///< absent: the pairs leave a motion undetermined
   PairNoise noise;
-  PairError residual;  ///< RMS over the pairs used
-  PairError heldout;   ///< RMS of pairs predicted by a fit without them
+  PairWeights weights = PairWeights::kPairs;  ///< under which `pose` is least squares
+  std::vector<WeighedFit> weighings;  ///< the ways to weigh that were compared; may be empty
+  PairError residual;                 ///< RMS over the pairs used
+  PairError heldout;                  ///< RMS of pairs predicted by a fit without them
   std::vector<RejectedPair> rejected;
   std::vector<PairError> errors;    ///< of every pair given
   std::vector<PairError> left_out;  ///< of every pair used: predicted by a fit without it
@@ -75,8 +80,8 @@ struct HandEyeResult {
 HandEyeResult calibrateRobotCamera(const std::vector<PosePair>& pairs, EyeSetup setup,
                                    const StepHook& hook);
 
-/// Fills everything behind `pose`, `used`, `noise` and `covariance` of a result that was refined
-/// elsewhere (by reprojection) from these pairs.
+/// Fills everything behind `pose`, `used`, `noise`, `weights` and `covariance` of a result that was
+/// refined elsewhere (by reprojection) from these pairs.
 void judgeHandEye(const std::vector<PosePair>& pairs, HandEyeResult& result);
 
 }  // namespace ringhook

@@ -81,7 +81,7 @@ constexpr double kErrorLever = 0.1;  ///< lever of medianError [m]: as long as a
 /// Steps 1 and 2.
 HandEyeFit fitHandEye(const std::vector<PosePair>& pairs, EyeSetup setup, const HandEye& start);
 
-/// Least squares over the `used` pairs from a near start, with noise given: for leaving pairs out.
+/// Least squares over the `used` pairs from a near start, with noise given.
 HandEye refitHandEye(const std::vector<PosePair>& pairs, EyeSetup setup, const HandEye& start,
                      const std::vector<bool>& used, const PairNoise& noise);
 

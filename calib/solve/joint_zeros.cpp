@@ -2,8 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
+
+#include "calib/solve/small_statistics.h"
 
 namespace ringhook {
 namespace {
@@ -148,17 +149,12 @@ JointZeros fitJointZeros(const std::vector<PosePair>& pairs, const std::vector<J
 }
 
 bool zerosPay(const std::vector<PairError>& plain, const std::vector<PairError>& with_zeros) {
-  const auto n = static_cast<double>(plain.size());
-  double sum = 0.0;
-  double squares = 0.0;
+  std::vector<double> falls;
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    const double fall = plain[i].translation_m * plain[i].translation_m -
-                        with_zeros[i].translation_m * with_zeros[i].translation_m;
-    sum += fall;
-    squares += fall * fall;
+    falls.push_back(plain[i].translation_m * plain[i].translation_m -
+                    with_zeros[i].translation_m * with_zeros[i].translation_m);
   }
-  const double mean = sum / n;
-  return mean > kClearly * std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1.0));
+  return meanInStandardErrors(falls) > kClearly;
 }
 
 std::vector<PosePair> withZeros(const std::vector<PosePair>& pairs,

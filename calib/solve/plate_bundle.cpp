@@ -166,23 +166,19 @@ struct Bundle {
   }
 };
 
-// Per axis, under a pose without any arm error or with the one of each view.
-double cornerRms(const std::vector<PlateView>& views, const std::vector<bool>& used, EyeSetup setup,
-                 const HandEye& pose, const std::vector<Block>* arm) {
+}  // namespace
+
+double cornerRms(const std::vector<PlateView>& views, const std::vector<bool>& used,
+                 const std::vector<Pose>& c1Mt) {
   double sum = 0.0;
   double n = 0.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!used[i]) {
       continue;
     }
-    const PosePair pair{"", views[i].fMe, Pose::Identity(), std::nullopt};
-    Pose c1Mt = predictedTarget(pose, pair, setup);
-    if (arm != nullptr) {
-      c1Mt = c1Mt * increment((*arm)[i]);
-    }
     for (const CameraFeatures& camera : views[i].seen.cameras) {
       for (const CornerFeature& corner : camera.corners) {
-        const auto pixel = camera.camera.project(c1Mt * corner.point_o);
+        const auto pixel = camera.camera.project(c1Mt[i] * corner.point_o);
         sum += pixel ? (*pixel - corner.pixel).squaredNorm() : HUGE_VAL;
         n += 2.0;
       }
@@ -191,7 +187,14 @@ double cornerRms(const std::vector<PlateView>& views, const std::vector<bool>& u
   return std::sqrt(sum / n);
 }
 
-}  // namespace
+std::vector<Pose> predictedPlates(const std::vector<PlateView>& views, EyeSetup setup,
+                                  const HandEye& pose) {
+  std::vector<Pose> c1Mt;
+  for (const PlateView& view : views) {
+    c1Mt.push_back(predictedTarget(pose, {"", view.fMe, Pose::Identity(), std::nullopt}, setup));
+  }
+  return c1Mt;
+}
 
 BundleResult refineOnPlates(const std::vector<PlateView>& views, const std::vector<bool>& used,
                             EyeSetup setup, const HandEye& start, double corner_sigma_px,
@@ -206,9 +209,13 @@ BundleResult refineOnPlates(const std::vector<PlateView>& views, const std::vect
     result.pose.camera = result.pose.camera * increment(bundle.a);
     result.pose.target = result.pose.target * increment(bundle.b);
     result.covariance = bundle.covariance();
-    result.rms_px = cornerRms(views, used, setup, result.pose, &bundle.d);
+    std::vector<Pose> c1Mt = predictedPlates(views, setup, result.pose);
+    for (std::size_t i = 0; i < c1Mt.size(); ++i) {
+      c1Mt[i] = c1Mt[i] * increment(bundle.d[i]);
+    }
+    result.rms_px = cornerRms(views, used, c1Mt);
   }
-  result.arm_rms_px = cornerRms(views, used, setup, result.pose, nullptr);
+  result.arm_rms_px = cornerRms(views, used, predictedPlates(views, setup, result.pose));
   return result;
 }
 

@@ -89,6 +89,29 @@ std::optional<rx60::Geometry> armBehind(const std::vector<PlateView>& views,
   return farthest(views, arm) < kOtherArm ? std::optional(arm) : std::nullopt;
 }
 
+void refineFromCorners(const std::vector<PlateView>& views, PlateCalibration& calibration) {
+  HandEyeResult& result = calibration.result;
+  const BundleResult bundle = refineOnPlates(views, result.used, result.setup, result.pose,
+                                             calibration.corner_sigma_px, result.noise);
+  result.pose = bundle.pose;
+  result.covariance = bundle.covariance;
+  calibration.rms_px = bundle.rms_px;
+  calibration.arm_rms_px = bundle.arm_rms_px;
+  judgeHandEye(calibration.pairs, result);
+}
+
+/// Of a result that is not taken from the corners: what its pairs contradict them by.
+void describeCorners(const std::vector<PlateView>& views, PlateCalibration& calibration) {
+  const HandEyeResult& result = calibration.result;
+  std::vector<Pose> seen;
+  for (const PosePair& pair : calibration.pairs) {
+    seen.push_back(pair.cMt);
+  }
+  calibration.rms_px = cornerRms(views, result.used, seen);
+  calibration.arm_rms_px =
+      cornerRms(views, result.used, predictedPlates(views, result.setup, result.pose));
+}
+
 void findZeros(const std::vector<PlateView>& views, const rx60::Geometry& arm, ZeroChoice choice,
                PlateCalibration& calibration) {
   HandEyeResult& result = calibration.result;
@@ -108,6 +131,7 @@ void findZeros(const std::vector<PlateView>& views, const rx60::Geometry& arm, Z
   result.pose = zeros.pose;
   result.covariance = zeros.covariance;
   result.noise = zeros.noise;
+  result.weights = PairWeights::kViews;
   judgeHandEye(calibration.pairs, result);
   // The judge leaves pairs out with the zeros kept; here they were found anew each time.
   result.left_out = zeros.left_out;
@@ -128,13 +152,11 @@ PlateCalibration calibrateFromViews(const std::vector<PlateView>& views, EyeSetu
   if (!result.sigmas || !result.better_convention.words.empty()) {
     return calibration;  // nothing that could be refined
   }
-  const BundleResult bundle = refineOnPlates(kept, result.used, setup, result.pose,
-                                             calibration.corner_sigma_px, result.noise);
-  result.pose = bundle.pose;
-  result.covariance = bundle.covariance;
-  calibration.rms_px = bundle.rms_px;
-  calibration.arm_rms_px = bundle.arm_rms_px;
-  judgeHandEye(calibration.pairs, result);
+  if (result.weights == PairWeights::kViews) {
+    refineFromCorners(kept, calibration);
+  } else {
+    describeCorners(kept, calibration);
+  }
   calibration.plain_heldout = result.heldout;
   const auto used = std::count(result.used.begin(), result.used.end(), true);
   if (const auto arm = armBehind(kept, told_zeros_rad)) {

@@ -10,6 +10,8 @@
 /// where d_i is what the arm's own error does to the plate of view i. Without it the arm would have
 /// to be perfect: a plate seen by two cameras is measured better than most arms stand. s_px comes
 /// from what single views leave unexplained, s_t and s_r from the pose pairs' fit (hand_eye_fit.h).
+/// Where pairs left out refute the views' covariances (pair_weights.h), the corners are not seen as
+/// this law believes, by a wrong lens model for one: the result of the pairs stands then.
 
 #include <string>
 #include <vector>
@@ -35,7 +37,7 @@ struct PlateCalibration {
       pairs;  ///< what each view says by itself, with its covariance; the arm as result takes it
   std::vector<RejectedPair> blind;  ///< views that tell no pose; index among the views given
   double corner_sigma_px = 0.0;     ///< s_px, per axis
-  double rms_px = 0.0;              ///< of the corners under the result, arm errors d_i taken out
+  double rms_px = 0.0;              ///< of the corners under the result, arm errors taken out
   double arm_rms_px = 0.0;  ///< likewise with all d_i = 0: the arm's errors as the camera sees
   std::optional<JointZeros> zeros;  ///< where all views have joints and the plain result is usable
   bool zeros_used = false;          ///< result belongs to the arm corrected by them
