@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib/solve/cv_image.h"
+#include "calib/solve/saddle_fit.h"
 
 namespace ringhook {
 namespace {
@@ -59,7 +60,8 @@ void refineCorners(const GrayImage& image, const std::vector<int>& windows, Corn
     std::vector<cv::Point2f> one{
         cv::Point2f(static_cast<float>(corners[i].x()), static_cast<float>(corners[i].y()))};
     cv::cornerSubPix(mat, one, cv::Size(windows[i], windows[i]), cv::Size(-1, -1), stop);
-    corners[i] = Eigen::Vector2d(one[0].x, one[0].y);
+    const Eigen::Vector2d start(one[0].x, one[0].y);
+    corners[i] = fitSaddle(image, start, windows[i]).value_or(start);
   }
 }
 

@@ -1,12 +1,16 @@
 #pragma once
 
 /// \file
-/// Corners of black and white squares to a fraction of a pixel.
-///
-/// Law (Foerstner's corner, as in OpenCV's cornerSubPix): every gradient in a window belongs to one
-/// of the two straight edges through the corner q, so that g(p) . (q - p) = 0 for all p in the
-/// window. The window must therefore see these two edges and nothing else, and it must be as large
-/// as that allows, because noise falls with its size. A square window of half side w reaches
+/// Corners of black and white squares to a fraction of a pixel, in two steps that look at the same
+/// window:
+///   1. Foerstner's corner (OpenCV's cornerSubPix): every gradient belongs to one of the two
+///   straight
+///      edges through the corner q, so that g(p) . (q - p) = 0 for all p in the window; from a
+///      start that is off by pixels;
+///   2. the grey of every pixel explained (saddle_fit.h), which leaves a third of the first step's
+///      error. Where no saddle is seen, the first step's corner stays.
+/// The window must therefore see these two edges and nothing else, and it must be as large as that
+/// allows, because noise falls with its size. A square window of half side w reaches
 /// w * sqrt(2) in the direction of its corners. What it must not reach lies, in squares:
 ///   chessboard  half a square away: the rim, where printed boards are often cut; the next grid
 ///               line is a whole one away;
@@ -39,7 +43,7 @@ int windowFor(double spacing_px, double share);
 /// its neighbours. \param grid columns * rows corners, to one or two pixels.
 std::vector<double> gridSpacings(const Corners& grid, int columns, int rows);
 
-/// Moves each corner to the minimum of the law above. \param windows half sides [px].
+/// Moves each corner by both steps. \param windows half sides [px].
 void refineCorners(const GrayImage& image, const std::vector<int>& windows, Corners& corners);
 
 }  // namespace ringhook

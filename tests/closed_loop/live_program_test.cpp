@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../support/own_network.h"
+#include "../support/scratch_folder.h"
 #include "../unit/app/program.h"
-#include "../unit/camera/scratch_folder.h"
 
 namespace ringhook {
 namespace {

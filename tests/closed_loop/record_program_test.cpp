@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../support/scratch_folder.h"
 #include "../unit/app/program.h"
-#include "../unit/camera/scratch_folder.h"
 #include "camera/sequence.h"
 #include "tests/support/tiny_disk.h"
 

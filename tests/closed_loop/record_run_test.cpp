@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "../unit/camera/scratch_folder.h"
+#include "../support/scratch_folder.h"
 #include "camera/csv_table.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence.h"

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdio>
 
-#include "../unit/camera/scratch_folder.h"
+#include "../support/scratch_folder.h"
 #include "camera/sequence.h"
 #include "evaluation/servo_run.h"
 #include "evaluation/servo_summary.h"

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../support/scratch_folder.h"
 #include "../unit/app/program.h"
-#include "../unit/camera/scratch_folder.h"
 
 namespace ringhook {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "../unit/camera/scratch_folder.h"
+#include "../support/scratch_folder.h"
 #include "calib/wizard/shot_folder.h"
 #include "cycle/cell_config.h"
 #include "rig/stereo_rig.h"

@@ -1,7 +1,7 @@
+#include "../support/scratch_folder.h"
 #include "camera/image_file.h"
 #include "camera/replay_camera.h"
 #include "stereo_camera_contract.h"
-#include "tests/unit/camera/scratch_folder.h"
 
 namespace ringhook {
 namespace {

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <optional>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "program.h"
 
 namespace ringhook {

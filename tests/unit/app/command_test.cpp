@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "program.h"
 
 namespace ringhook {

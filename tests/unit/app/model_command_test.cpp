@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "program.h"
 
 namespace ringhook {

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "program.h"
 #include "robot/rx60/tcp_port.h"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../support/scratch_folder.h"
 #include "board_scene.h"
 #include "core/error.h"
 
@@ -20,20 +21,13 @@ const StepHook kSilent = [](double, const std::string&) {};
 
 class StereoImages : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path save(const std::string& name, const GrayImage& image) const {
-    std::ofstream file(folder_ / name, std::ios::binary);
+    std::ofstream file(folder_.path() / name, std::ios::binary);
     file << "P5\n" << image.width << " " << image.height << "\n255\n";
     for (const std::uint8_t value : image.pixels) {
       file.put(static_cast<char>(value));
     }
-    return folder_ / name;
+    return folder_.path() / name;
   }
 
   static GrayImage board(int width, int height) {
@@ -52,7 +46,7 @@ class StereoImages : public ::testing::Test {
     return "no failure";
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(StereoImages, PairsByNameAndRejectsAPairWithoutTheBoard) {
@@ -60,9 +54,9 @@ TEST_F(StereoImages, PairsByNameAndRejectsAPairWithoutTheBoard) {
   save("l1.pgm", board(320, 240));
   save("r1.pgm", board(320, 240));
   save("r2.pgm", board(320, 240));
-  const auto left = expandGlob((folder_ / "l*.pgm").string(), "--left");
+  const auto left = expandGlob((folder_.path() / "l*.pgm").string(), "--left");
   const auto views =
-      findViews(left, expandGlob((folder_ / "r*.pgm").string(), "--right"), kBoard, kSilent);
+      findViews(left, expandGlob((folder_.path() / "r*.pgm").string(), "--right"), kBoard, kSilent);
   ASSERT_EQ(views.usable.size(), 1U);
   EXPECT_EQ(views.usable[0].left_name, "l1.pgm");
   ASSERT_EQ(views.rejected.size(), 1U);
@@ -71,7 +65,7 @@ TEST_F(StereoImages, PairsByNameAndRejectsAPairWithoutTheBoard) {
 }
 
 TEST_F(StereoImages, RefusesAnEmptyPattern) {
-  EXPECT_THROW((void)expandGlob((folder_ / "*.png").string(), "--left"), InputError);
+  EXPECT_THROW((void)expandGlob((folder_.path() / "*.png").string(), "--left"), InputError);
 }
 
 TEST_F(StereoImages, RefusesListsOfDifferentLength) {
@@ -79,8 +73,8 @@ TEST_F(StereoImages, RefusesListsOfDifferentLength) {
 }
 
 TEST_F(StereoImages, RefusesAFileThatIsNoImageNamingIt) {
-  std::ofstream(folder_ / "bad.png") << "not a picture";
-  EXPECT_THAT(failure({folder_ / "bad.png"}, {save("r.pgm", board(320, 240))}),
+  std::ofstream(folder_.path() / "bad.png") << "not a picture";
+  EXPECT_THAT(failure({folder_.path() / "bad.png"}, {save("r.pgm", board(320, 240))}),
               HasSubstr("bad.png: expected a whole PNG"));
 }
 

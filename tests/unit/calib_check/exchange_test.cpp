@@ -11,6 +11,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
+#include "../../support/scratch_folder.h"
 #include "calib/exchange/lens_fit.h"
 #include "camera/visp_camera_xml.h"
 #include "core/atomic_file.h"
@@ -24,15 +25,8 @@ using testing::HasSubstr;
 
 class Exchange : public testing::Test {
  protected:
-  Exchange() : folder_(fs::path(testing::TempDir()) / "ringhook-exchange") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Exchange() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
-    writeFileAtomically(folder_ / name, text);
-    return folder_ / name;
+    return folder_.write(name, text);
   }
   std::vector<fs::path> write(const RigExport& exported) const {
     std::vector<fs::path> files;
@@ -53,7 +47,7 @@ class Exchange : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 StereoRig someRig() {

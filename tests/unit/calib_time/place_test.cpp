@@ -9,7 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <set>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "camera/image_file.h"
 #include "core/error.h"
 #include "robot/arm.h"

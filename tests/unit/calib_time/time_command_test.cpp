@@ -7,8 +7,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "../../support/scratch_folder.h"
 #include "../app/program.h"
-#include "../camera/scratch_folder.h"
 #include "rig/stereo_rig.h"
 
 namespace ringhook {

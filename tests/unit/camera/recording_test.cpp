@@ -7,12 +7,12 @@
 #include <csignal>
 #include <fstream>
 
+#include "../../support/scratch_folder.h"
 #include "camera/recording_folder.h"
 #include "camera/replay_camera.h"
 #include "camera/sequence_recorder.h"
 #include "camera/table_file.h"
 #include "core/error.h"
-#include "scratch_folder.h"
 #include "small_recording.h"
 #include "tests/support/tiny_disk.h"
 

@@ -5,9 +5,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "../../support/scratch_folder.h"
 #include "camera/image_file.h"
 #include "core/error.h"
-#include "scratch_folder.h"
 
 namespace ringhook {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <numbers>
 
+#include "../../support/scratch_folder.h"
 #include "camera/image_file.h"
 #include "core/error.h"
-#include "scratch_folder.h"
 
 namespace ringhook {
 namespace {

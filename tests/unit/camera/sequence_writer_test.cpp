@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
+#include "../../support/scratch_folder.h"
 #include "camera/replay_camera.h"
 #include "core/error.h"
-#include "scratch_folder.h"
 #include "small_recording.h"
 
 namespace ringhook {

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
-#include "scratch_folder.h"
 
 namespace ringhook {
 namespace {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -15,14 +16,6 @@ namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) /
-        ("atomic_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::string read(const fs::path& path) {
     std::ifstream in(path);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -32,7 +25,8 @@ class AtomicFileTest : public testing::Test {
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  ScratchFolder scratch_;
+  const fs::path folder_ = scratch_.path() / "of the test";
 };
 
 TEST_F(AtomicFileTest, AppearsWholeOnCommit) {

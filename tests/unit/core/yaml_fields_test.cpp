@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 
 namespace ringhook {
@@ -14,11 +15,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 YamlFields opened(const std::string& text) {
-  const auto path = std::filesystem::path(::testing::TempDir()) /
-                    (std::string("ringhook_fields_") +
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml");
-  std::ofstream(path) << text;
-  return YamlFields::open(path);
+  const ScratchFolder folder;
+  return YamlFields::open(folder.write("fields.yaml", text));
 }
 
 template <class Action>

@@ -6,7 +6,7 @@
 
 #include <ostream>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "default_cell.h"
 

@@ -1,6 +1,6 @@
 #include "default_cell.h"
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 
 namespace ringhook::test {
 

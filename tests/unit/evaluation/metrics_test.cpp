@@ -5,6 +5,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "evaluation/evaluation_method.h"
 #include "evaluation/pose_error.h"
@@ -65,7 +66,6 @@ TEST(PoseAt, LiesBetweenItsNeighboursAndNotBeyond) {
 
 class TumFile : public ::testing::Test {
  protected:
-  ~TumFile() override { std::filesystem::remove(path_); }
   std::string refusalOf(const std::string& text) {
     std::ofstream(path_) << text;
     try {
@@ -75,9 +75,8 @@ class TumFile : public ::testing::Test {
     }
     return {};
   }
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".tum");
+  ScratchFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "file.tum";
 };
 
 TEST_F(TumFile, WhatIsWrittenIsRead) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/angle.h"
 #include "evaluation/hanging_hook.h"
 #include "evaluation/pendulum_experiment.h"
@@ -129,7 +130,8 @@ TEST(PendulumExperiment, ItsOutputsHoldTheReportsNumbersBesideTheExactOnes) {
   EXPECT_NE(pendulumTable(experiment).find("+0.0403"), std::string::npos)
       << "2.14 s against 2.139138 s in percent\n"
       << pendulumTable(experiment);
-  const auto folder = std::filesystem::path(testing::TempDir()) / "ringhook_pendulum";
+  const ScratchFolder scratch;
+  const auto folder = scratch.path() / "out";
   writePendulumOutputs(folder, experiment);
   std::ifstream csv(folder / "trajectories.csv");
   std::string head;

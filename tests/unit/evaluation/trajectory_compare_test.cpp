@@ -7,7 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 
 namespace ringhook {

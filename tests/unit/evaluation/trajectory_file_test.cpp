@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "evaluation/sample_noise.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "rig/stereo_rig.h"
 #include "sim/cell_world.h"
@@ -19,12 +19,6 @@ namespace ringhook {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path emptyFolder(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("ringhook_truth_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
 
 /// A table's rows, each a map from column name to text.
 std::vector<std::map<std::string, std::string>> rowsOf(const fs::path& file) {
@@ -64,7 +58,8 @@ void dropRing(const fs::path& folder, double until_s, const CellOptions& options
 }
 
 TEST(TruthLog, TablesSayWhatTheWorldSaid) {
-  const fs::path folder = emptyFolder("says");
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "truth";
   CellWorld world{CellOptions{}};
   {
     TruthLog log(folder, world, nominalRig());
@@ -94,7 +89,8 @@ TEST(TruthLog, TablesSayWhatTheWorldSaid) {
 }
 
 TEST(TruthLog, CamerasStandInARigFileOfTheirOwn) {
-  const fs::path folder = emptyFolder("cameras");
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "truth";
   const StereoRig rig = disturbedRig(nominalRig(), 7);
   {
     const CellWorld world{CellOptions{}};
@@ -107,7 +103,8 @@ TEST(TruthLog, CamerasStandInARigFileOfTheirOwn) {
 }
 
 TEST(TruthLog, AFallenRingLiesOnTheFloorWithItsWeight) {
-  const fs::path folder = emptyFolder("floor");
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "truth";
   dropRing(folder, 3.0);
   const double wire = 0.003;
   const double radius = 0.013 + 0.0067 + wire;
@@ -138,9 +135,10 @@ CellOptions hurriedStopAndGo(std::uint64_t seed) {
 }
 
 TEST(TruthLog, SameSeedWritesTheSameBytesAndAnotherOneOthers) {
-  const fs::path first = emptyFolder("first");
-  const fs::path second = emptyFolder("second");
-  const fs::path other = emptyFolder("other");
+  const ScratchFolder scratch;
+  const fs::path first = scratch.path() / "first";
+  const fs::path second = scratch.path() / "second";
+  const fs::path other = scratch.path() / "other";
   dropRing(first, 1.2, hurriedStopAndGo(5));
   dropRing(second, 1.2, hurriedStopAndGo(5));
   dropRing(other, 1.2, hurriedStopAndGo(6));
@@ -152,7 +150,8 @@ TEST(TruthLog, SameSeedWritesTheSameBytesAndAnotherOneOthers) {
 }
 
 TEST(TruthLog, WhatWasSampledBeforeAnExceptionIsKept) {
-  const fs::path folder = emptyFolder("kept");
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "truth";
   try {
     CellWorld world{CellOptions{}};
     TruthLog log(folder, world, nominalRig());

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <sstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "rig/stereo_rig.h"
 #include "sample_rig.h"
@@ -23,9 +24,6 @@ std::string readAll(const fs::path& path) {
 
 class RigFile : public testing::Test {
  protected:
-  RigFile() { fs::create_directories(folder_); }
-  ~RigFile() override { fs::remove_all(folder_); }
-
   void write(const std::string& text) const { std::ofstream(path_) << text; }
 
   /// The file with `from` replaced by `to`.
@@ -46,8 +44,8 @@ class RigFile : public testing::Test {
     return "loaded";
   }
 
-  fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
   fs::path path_ = folder_ / "rig.yaml";
 };
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "image_reader.h"
 #include "sim/arm_visuals.h"
@@ -118,13 +119,13 @@ TEST(TagPattern, RefusesAnIdOutsideTheFamily) {
 }
 
 TEST(NominalRig, StoredRigIsWhatTheCodeEmits) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "ringhook_rig_sim.yaml";
+  const ScratchFolder folder;
+  const auto path = folder.path() / "rig-sim.yaml";
   saveRig(path, nominalRig());
   std::ifstream emitted(path);
   std::ostringstream text;
   text << emitted.rdbuf();
   EXPECT_EQ(stored("app/config/rig-sim.yaml"), text.str());
-  std::filesystem::remove(path);
 }
 
 TEST(NominalRig, BothCamerasLookAtTheWindowFromTheirPlaces) {

@@ -5,22 +5,20 @@
 
 #include <fstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 
 namespace ringhook {
 namespace {
 
-std::filesystem::path written(const std::string& text) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto path = std::filesystem::path(::testing::TempDir()) /
-                    (std::string("scenario_").append(test->name()) + ".yaml");
-  std::ofstream(path) << text;
-  return path;
+Scenario loaded(const std::string& text) {
+  const ScratchFolder folder;
+  return loadScenario(folder.write("scenario.yaml", text));
 }
 
 std::string complaint(const std::string& text) {
   try {
-    static_cast<void>(loadScenario(written(text)));
+    static_cast<void>(loaded(text));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -38,20 +36,20 @@ TEST(Scenario, TheEasyOneIsTheDefaultCell) {
 }
 
 TEST(Scenario, ConvertsDegreesAndKeepsDefaults) {
-  const Scenario s = loadScenario(written("name: x\nhook: {swing_about_y_deg: 15}\n"));
+  const Scenario s = loaded("name: x\nhook: {swing_about_y_deg: 15}\n");
   EXPECT_NEAR(s.cell.hook.swing_about_y, 0.2617994, 1e-7);
   EXPECT_DOUBLE_EQ(s.cell.belt.speed, CellOptions{}.belt.speed);
 }
 
 TEST(Scenario, EveryKeyOfBeltAndHookReachesItsOption) {
-  const CellOptions cell = loadScenario(written(R"(
+  const CellOptions cell = loaded(R"(
 name: x
 belt: {speed_m_s: 0.11, speed_spread: 0.12, start_s: 1.3, stops: 14, run_s: [1.5, 1.6],
   stand_s: [1.7, 1.8], acceleration_m_s2: 1.9, jerk_m_s3: 2.1, pitch_m: 0.22, ripple: [0.05, 0.01],
   start_y_m: -0.23, entry_y_m: -0.24}
 hook: {count: 4, spacing_m: 0.61, swing_about_x_deg: 6.2, swing_about_y_deg: 6.3, swing_least: 0.64,
   length_spread: 0.065, pivot_friction_N_m: 0.066, pivot_damping_N_m_s: 0.067, damping_spread: 0.68}
-)"))
+)")
                                .cell;
   EXPECT_EQ(cell.belt.speed, 0.11);
   EXPECT_EQ(cell.belt.speed_spread, 0.12);
@@ -77,13 +75,13 @@ hook: {count: 4, spacing_m: 0.61, swing_about_x_deg: 6.2, swing_about_y_deg: 6.3
 }
 
 TEST(Scenario, EveryKeyOfRingArmGripperAndAirReachesItsOption) {
-  const CellOptions cell = loadScenario(written(R"(
+  const CellOptions cell = loaded(R"(
 name: x
 ring: {count: 7, clearance_m: 0.0071, friction: 0.72}
 arm: {zero_error_sigma_deg: 0.073}
 gripper: {feeder_clearance_m: 0.74}
 air: {density_kg_m3: 0.75, viscosity_Pa_s: 0.76}
-)"))
+)")
                                .cell;
   EXPECT_EQ(cell.ring.count, 7);
   EXPECT_EQ(cell.ring.clearance, 0.0071);
@@ -95,7 +93,7 @@ air: {density_kg_m3: 0.75, viscosity_Pa_s: 0.76}
 }
 
 TEST(Scenario, EveryKeyOfTheSceneReachesItsOption) {
-  const Scenario s = loadScenario(written(R"(
+  const Scenario s = loaded(R"(
 name: x
 light: {setup: side, brightness: 0.31, brightness_spread: 0.32, direction_spread_deg: 33,
   shadows: false, shadow_map_px: 341}
@@ -103,7 +101,7 @@ background: {wall: textured, clutter: 35, specular: 3.6, seed: 37}
 occluder: {count: 38, speed_m_s: 0.39, speed_spread: 0.41, width_m: 0.042, x_m: 0.93, first_s: 4.4,
   interval_s: 4.5}
 board: {columns: 6, rows: 7, square_m: 0.048, fMt: [0.1, 0.2, 0.3, 0, 0, 1, 0]}
-)"));
+)");
   const SceneOptions& scene = s.cell.scene;
   EXPECT_EQ(scene.light.setup, LightSetup::side);
   EXPECT_EQ(scene.light.brightness, 0.31);
@@ -130,12 +128,12 @@ board: {columns: 6, rows: 7, square_m: 0.048, fMt: [0.1, 0.2, 0.3, 0, 0, 1, 0]}
 }
 
 TEST(Scenario, EveryKeyOfCameraAndCalibrationReachesItsOption) {
-  const Scenario s = loadScenario(written(R"(
+  const Scenario s = loaded(R"(
 name: x
 camera: {rate_hz: 51, highest_rate_hz: 52, transport_delay_ms: 53, exposure_ms: 5.4, gain: 5.5,
   full_well_e: 5600, read_noise_e: 5.7, black_level: 5.8, noise: false}
 calibration: {between_mm: 0.81, between_deg: 0.82, to_robot_mm: 0.83, to_robot_deg: 0.84}
-)"));
+)");
   EXPECT_EQ(s.camera.rate_hz, 51.0);
   EXPECT_EQ(s.camera.highest_rate_hz, 52.0);
   EXPECT_DOUBLE_EQ(s.camera.transport_delay_s, 0.053);

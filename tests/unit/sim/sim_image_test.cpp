@@ -8,6 +8,7 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "image_reader.h"
 #include "scene_view.h"
@@ -205,7 +206,8 @@ TEST(SimImage, TagsReadUprightFromBothCameras) {
 TEST(SimImage, PictureIsWrittenInColour) {
   CellWorld world(hookInView(-0.2));
   SimStereoCamera camera(world, nominalRig());
-  const auto path = std::filesystem::path(testing::TempDir()) / "ringhook_picture.png";
+  const ScratchFolder folder;
+  const auto path = folder.path() / "picture.png";
   camera.savePicture(path, *nominalRig().fMc1, 0.8, 320, 240);
   const cv::Mat picture = cv::imread(path.string());
   ASSERT_EQ(picture.cols, 320);
@@ -218,7 +220,6 @@ TEST(SimImage, PictureIsWrittenInColour) {
     }
   }
   EXPECT_GT(orange, 1000);  // the arm
-  std::filesystem::remove(path);
 }
 
 }  // namespace

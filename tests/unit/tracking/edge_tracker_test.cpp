@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "tests/unit/tracking/painted_hook.h"
 #include "tests/unit/tracking/visp_data.h"
@@ -172,8 +173,8 @@ TEST(EdgeTracker, RefusesWithoutAStartAndForgetsThePoseWhenTheHookIsGone) {
 
 TEST(EdgeTracker, NamesTheModelThatIsMissingOrEmpty) {
   EXPECT_THROW(EdgeTracker("absent.cao"), InputError);
-  const fs::path empty = fs::path(testing::TempDir()) / "ringhook_empty.cao";
-  std::ofstream(empty) << "V1\n1\n0 0 0\n0\n0\n0\n0\n0\n";
+  const ScratchFolder folder;
+  const fs::path empty = folder.write("ringhook_empty.cao", "V1\n1\n0 0 0\n0\n0\n0\n0\n0\n");
   try {
     EdgeTracker tracker(empty);
     FAIL() << "a model without faces was accepted";

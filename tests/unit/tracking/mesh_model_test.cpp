@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "../../support/scratch_folder.h"
 #include "core/error.h"
 #include "mesh_shapes.h"
 #include "tests/unit/tracking/painted_hook.h"
@@ -261,9 +262,10 @@ std::set<std::size_t> sidesSeen(const HookView& view, const test::Outline& outli
 
 // ViSP decides by the face's direction what is visible; the L's first corner is its inward one.
 TEST(MeshModel, VispSeesTheConcaveFaceThatIsTurnedToIt) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "ringhook_converted_ell.cao";
+  const ScratchFolder folder;
   const test::Outline outline = test::ell(0.04);
-  std::ofstream(file) << caoText(modelOf(prism(outline, 0.01, true, 0)), "ell.obj");
+  const auto file =
+      folder.write("ell.cao", caoText(modelOf(prism(outline, 0.01, true, 0)), "ell.obj"));
   for (const bool from_above : {true, false}) {
     RectifiedFrame frame = test::emptyPair(90);
     frame.views.resize(1);  // the right camera would see the L's sides, too
@@ -283,7 +285,6 @@ TEST(MeshModel, VispSeesTheConcaveFaceThatIsTurnedToIt) {
     EXPECT_EQ(sidesSeen(*view, outline, oMface.translation().z()).size(), 6U);
     EXPECT_LT(tracker.quality().rms_px, 1.0);
   }
-  std::filesystem::remove(file);
 }
 
 }  // namespace

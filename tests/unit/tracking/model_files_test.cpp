@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "../../support/scratch_folder.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "tests/unit/tracking/painted_hook.h"
@@ -26,8 +27,8 @@ std::string complaint(Load&& load) {
 }
 
 std::string plateComplaint(const std::string& text) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "ringhook_plate.yaml";
-  writeFileAtomically(path, text);
+  const ScratchFolder folder;
+  const auto path = folder.write("plate.yaml", text);
   return complaint([&] { loadTagPlate(path); });
 }
 

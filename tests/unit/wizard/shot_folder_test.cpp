@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "../camera/scratch_folder.h"
+#include "../../support/scratch_folder.h"
 #include "calib/wizard/place.h"
 #include "camera/image_file.h"
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// A fresh folder for one test, removed afterwards, and small text files in it.
+/// A fresh folder for one test, removed afterwards, and small text files in it. No other test has
+/// it, run at the same time or by somebody else.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,9 +18,10 @@ namespace ringhook {
 class ScratchFolder {
  public:
   ScratchFolder() {
+    static int count = 0;  // a test may want two
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("ringhook-") + test->test_suite_name() + "-" + test->name() +
-                       "-" + std::to_string(::getpid());
+                       "-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
     std::replace(name.begin(), name.end(), '/', '-');  // in the names of parametrised tests
     path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::remove_all(path_);
