@@ -28,7 +28,7 @@ TEST(RenderedRig, IsFoundFromTenPairsOfPictures) {
   const StereoRig truth = trueCellRig(1);
   EXPECT_NEAR(c.rig.left.K(0, 0), truth.left.K(0, 0), 5e-4 * truth.left.K(0, 0));
   EXPECT_NEAR(baseline(c.rig), baseline(truth), 5e-4 * baseline(truth));
-  EXPECT_LT(c.heldout_vertical_disparity_px, 0.07);
+  EXPECT_LT(c.heldout_vertical_disparity_px, 0.04);
   EXPECT_LT(barError(c.rig, truth, 0.0, 1), 3e-5);
 }
 

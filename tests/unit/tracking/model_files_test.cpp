@@ -4,7 +4,6 @@
 #include <fstream>
 
 #include "../../support/scratch_folder.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "tests/unit/tracking/painted_hook.h"
 #include "tracking/edge_model.h"
