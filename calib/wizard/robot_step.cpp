@@ -193,6 +193,7 @@ std::string json(const PlateCalibration& calibration) {
                         {"heldout_mm", 1e3 * r.heldout.translation_m},
                         {"joint_zeros_deg", std::vector(zeros_deg.begin(), zeros_deg.end())},
                         {"solver", r.solver},
+                        {"weights", toString(r.weights)},
                         {"rejected_pairs", r.rejected.size()},
                         {"verdict", toString(r.verdict.grade)},
                         {"verdict_sentence", r.verdict.sentence}}
@@ -206,6 +207,10 @@ void tell(WizardContext& context, const PlateCalibration& calibration) {
   }
   context.console.say(figures(result) + "\n  verdict: " + toString(result.verdict.grade) + ": " +
                       result.verdict.sentence);
+  if (!result.weighings.empty() && result.weights != result.weighings.front().weights) {
+    context.console.say("  weighed by: " + toString(result.weights) +
+                        ", since pairs left out contradict the errors that the pictures tell of");
+  }
   if (calibration.zeros_used) {
     context.console.say("  the arm's joint zeros are off by" +
                         zerosText(calibration.arm_zeros_rad) +

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "../../support/scratch_folder.h"
 #include "core/error.h"
 
