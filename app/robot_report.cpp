@@ -46,8 +46,8 @@ nlohmann::json weighingsOf(const HandEyeResult& r) {
   nlohmann::json list = nlohmann::json::array();
   for (const WeighedFit& fit : r.weighings) {
     list.push_back({{"name", toString(fit.weights)},
-                    {"heldout_mm", 1e3 * fit.heldout.translation_m},
-                    {"heldout_deg", fit.heldout.rotation_rad / kDegree}});
+                    {"heldout_mm", 1e3 * fit.left_out.rms.translation_m},
+                    {"heldout_deg", fit.left_out.rms.rotation_rad / kDegree}});
   }
   return list;
 }
@@ -83,13 +83,14 @@ void printForms(const HandEyeResult& r) {
 
 void printWeights(const HandEyeResult& r) {
   std::printf("weights     %s", toString(r.weights).c_str());
-  if (!r.weighings.empty() && r.weights != r.weighings.front().weights) {
+  if (weightsRefuted(r)) {
     std::printf(": pairs left out are predicted clearly better by it");
   }
   std::printf("\n");
   for (const WeighedFit& fit : r.weighings) {
-    std::printf("            held out %.3f mm, %.3f degrees: %s\n", 1e3 * fit.heldout.translation_m,
-                fit.heldout.rotation_rad / kDegree, toString(fit.weights).c_str());
+    std::printf("            held out %.3f mm, %.3f degrees: %s\n",
+                1e3 * fit.left_out.rms.translation_m, fit.left_out.rms.rotation_rad / kDegree,
+                toString(fit.weights).c_str());
   }
 }
 

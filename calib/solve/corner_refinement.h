@@ -3,10 +3,8 @@
 /// \file
 /// Corners of black and white squares to a fraction of a pixel, in two steps that look at the same
 /// window:
-///   1. Foerstner's corner (OpenCV's cornerSubPix): every gradient belongs to one of the two
-///   straight
-///      edges through the corner q, so that g(p) . (q - p) = 0 for all p in the window; from a
-///      start that is off by pixels;
+///   1. Foerstner's corner (OpenCV's cornerSubPix): every gradient belongs to one of the two edges
+///      through the corner q, so that g(p) . (q - p) = 0 for all p; from a start off by pixels;
 ///   2. the grey of every pixel explained (saddle_fit.h), which leaves a third of the first step's
 ///      error. Where no saddle is seen, the first step's corner stays.
 /// The window must therefore see these two edges and nothing else, and it must be as large as that

@@ -61,36 +61,6 @@ HandEyeSigmas larger(const HandEyeSigmas& a, const HandEyeSigmas& b) {
           std::max(a.workspace_m, b.workspace_m)};
 }
 
-// Every used pair left out once: its error, and the jackknife's covariance of (a, b).
-Covariance12 leaveOut(const std::vector<PosePair>& pairs, HandEyeResult& result) {
-  const std::vector<HandEye> without = refitsWithoutEach(pairs, result.setup, result.pose,
-                                                         result.used, result.noise, result.weights);
-  std::vector<Eigen::Matrix<double, 12, 1>> changes;
-  result.left_out.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!result.used[i]) {
-      continue;
-    }
-    const HandEye& other = without[changes.size()];
-    result.left_out.push_back(pairError(other, pairs[i], result.setup));
-    Eigen::Matrix<double, 12, 1> change;
-    change << logSe3(result.pose.camera.inverse() * other.camera),
-        logSe3(result.pose.target.inverse() * other.target);
-    changes.push_back(change);
-  }
-  const auto n = static_cast<double>(changes.size());
-  result.heldout = rms(result.left_out);
-  Eigen::Matrix<double, 12, 1> mean = Eigen::Matrix<double, 12, 1>::Zero();
-  for (const auto& change : changes) {
-    mean += change / n;
-  }
-  Covariance12 jackknife = Covariance12::Zero();
-  for (const auto& change : changes) {
-    jackknife += (n - 1.0) / n * (change - mean) * (change - mean).transpose();
-  }
-  return jackknife;
-}
-
 std::string reasonOf(const PairError& error) {
   return millimetres(error.translation_m) + " and " + degrees(error.rotation_rad) +
          " from where the others put it";
@@ -141,24 +111,24 @@ HandEyeFit refineBest(const std::vector<PosePair>& pairs, const std::vector<Star
 
 // The fit as believed, or under the weights that predict pairs left out clearly better.
 void takeFit(const std::vector<PosePair>& pairs, const HandEyeFit& fit, HandEyeResult& result) {
-  result.pose = fit.pose;
-  result.used = fit.used;
-  result.noise = fit.noise;
-  result.covariance = fit.covariance;
-  result.weights = believedWeights(pairs);
+  WeighedFit taken{believedWeights(pairs), fit.pose, fit.noise, fit.covariance, {}};
   const auto kept = std::count(fit.used.begin(), fit.used.end(), true);
-  if (!fit.covariance || kept < static_cast<std::ptrdiff_t>(kFewestToWeigh)) {
-    return;
+  if (fit.covariance && kept >= static_cast<std::ptrdiff_t>(kFewestToWeigh)) {
+    result.weighings = fitInEveryWay(pairs, result.setup, fit);
+    taken = result.weighings[chosenFit(result.weighings)];
   }
-  result.weighings = fitInEveryWay(pairs, result.setup, fit);
-  const WeighedFit& chosen = result.weighings[chosenFit(result.weighings)];
-  result.pose = chosen.pose;
-  result.noise = chosen.noise;
-  result.covariance = chosen.covariance;
-  result.weights = chosen.weights;
+  result.pose = taken.pose;
+  result.noise = taken.noise;
+  result.covariance = taken.covariance;
+  result.weights = taken.weights;
+  result.used = fit.used;
 }
 
 }  // namespace
+
+bool weightsRefuted(const HandEyeResult& result) {
+  return !result.weighings.empty() && result.weights != result.weighings.front().weights;
+}
 
 HandEyeResult calibrateRobotCamera(const std::vector<PosePair>& pairs, EyeSetup setup,
                                    const StepHook& hook) {
@@ -188,9 +158,14 @@ void judgeHandEye(const std::vector<PosePair>& pairs, HandEyeResult& result) {
   result.sigmas.reset();
   const std::size_t kept = pairs.size() - result.rejected.size();
   if (result.covariance && kept >= 3) {
-    const Covariance12 jackknife = leaveOut(pairs, result);
+    const LeftOut left_out = leaveEachOut(
+        pairs, result.setup, {result.weights, result.pose, result.noise, result.covariance, {}},
+        result.used);
+    result.left_out = left_out.errors;
+    result.heldout = left_out.rms;
     const Eigen::Vector3d point_c = middle(pairs, result.used);
-    result.sigmas = larger(sigmasOf(*result.covariance, point_c), sigmasOf(jackknife, point_c));
+    result.sigmas =
+        larger(sigmasOf(*result.covariance, point_c), sigmasOf(left_out.jackknife, point_c));
   }
   result.verdict = judge(result);
 }

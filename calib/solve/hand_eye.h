@@ -80,6 +80,9 @@ struct HandEyeResult {
 HandEyeResult calibrateRobotCamera(const std::vector<PosePair>& pairs, EyeSetup setup,
                                    const StepHook& hook);
 
+/// Whether pairs left out spoke clearly against the weights that were believed first.
+bool weightsRefuted(const HandEyeResult& result);
+
 /// Fills everything behind `pose`, `used`, `noise`, `weights` and `covariance` of a result that was
 /// refined elsewhere (by reprojection) from these pairs.
 void judgeHandEye(const std::vector<PosePair>& pairs, HandEyeResult& result);

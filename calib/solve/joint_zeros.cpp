@@ -14,7 +14,6 @@ using Vector18 = Eigen::Matrix<double, 18, 1>;
 constexpr int kSteps = 8;       // Gauss-Newton; starts are near
 constexpr double kHeld = 1e-7;  // [rad]
 constexpr int kNoiseRounds = 6;
-constexpr double kClearly = 2.0;  // standard errors
 
 struct State {
   HandEye pose;
@@ -154,7 +153,7 @@ bool zerosPay(const std::vector<PairError>& plain, const std::vector<PairError>&
     falls.push_back(plain[i].translation_m * plain[i].translation_m -
                     with_zeros[i].translation_m * with_zeros[i].translation_m);
   }
-  return meanInStandardErrors(falls) > kClearly;
+  return clearlyPositive(falls);
 }
 
 std::vector<PosePair> withZeros(const std::vector<PosePair>& pairs,

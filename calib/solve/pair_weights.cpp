@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "calib/solve/small_statistics.h"
@@ -10,8 +11,9 @@
 namespace ringhook {
 namespace {
 
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
 constexpr int kNoiseRounds = 10;
-constexpr double kClearly = 2.0;  // standard errors
 /// An angle then counts as this much translation [m]: hundreds of times farther than the pairs
 /// reach, so that no translation moves the rotations.
 constexpr double kFarLever = 100.0;
@@ -56,22 +58,10 @@ Covariance12 covarianceUnder(const Weighing& weighing, EyeSetup setup, const Han
   return inverse * spread * inverse.transpose();
 }
 
-void leaveOut(const std::vector<PosePair>& pairs, EyeSetup setup, const std::vector<bool>& used,
-              WeighedFit& fit) {
-  const auto without = refitsWithoutEach(pairs, setup, fit.pose, used, fit.noise, fit.weights);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (used[i]) {
-      fit.left_out.push_back(pairError(without[next++], pairs[i], setup));
-    }
-  }
-  fit.heldout = rms(fit.left_out);
-}
-
 // Every pair the same, and the scatter that the pairs then show.
 WeighedFit fitPairs(const std::vector<PosePair>& pairs, EyeSetup setup,
                     const HandEyeFit& believed) {
-  WeighedFit fit{PairWeights::kPairs, believed.pose, believed.noise, std::nullopt, {}, {}};
+  WeighedFit fit{PairWeights::kPairs, believed.pose, believed.noise, std::nullopt, {}};
   for (int round = 0; round < kNoiseRounds; ++round) {
     const Weighing weighing(pairs, fit.noise, fit.weights);
     fit.pose = refitHandEye(weighing.pairs, setup, fit.pose, believed.used, weighing.noise);
@@ -83,29 +73,26 @@ WeighedFit fitPairs(const std::vector<PosePair>& pairs, EyeSetup setup,
 // The scatter is that of the best fit: this one's residuals hold its own errors too.
 WeighedFit fitRotationFirst(const std::vector<PosePair>& pairs, EyeSetup setup,
                             const WeighedFit& best, const std::vector<bool>& used) {
-  WeighedFit fit{PairWeights::kRotationFirst, best.pose, best.noise, std::nullopt, {}, {}};
+  WeighedFit fit{PairWeights::kRotationFirst, best.pose, best.noise, std::nullopt, {}};
   const Weighing weighing(pairs, fit.noise, fit.weights);
   fit.pose = refitHandEye(weighing.pairs, setup, fit.pose, used, weighing.noise);
   return fit;
 }
 
-bool clearlyBetter(const WeighedFit& fit, const WeighedFit& than) {
-  const auto share = [](double error, double rms) { return error * error / (rms * rms); };
+// Errors are counted in those of `than`, so that millimetres and degrees add up.
+bool clearlyBetter(const LeftOut& fit, const LeftOut& than) {
+  const auto square = [&](const PairError& e) {
+    return std::pow(e.translation_m / than.rms.translation_m, 2) +
+           std::pow(e.rotation_rad / than.rms.rotation_rad, 2);
+  };
   std::vector<double> falls;
-  for (std::size_t i = 0; i < fit.left_out.size(); ++i) {
-    const PairError& a = than.left_out[i];
-    const PairError& b = fit.left_out[i];
-    falls.push_back(share(a.translation_m, than.heldout.translation_m) -
-                    share(b.translation_m, than.heldout.translation_m) +
-                    share(a.rotation_rad, than.heldout.rotation_rad) -
-                    share(b.rotation_rad, than.heldout.rotation_rad));
+  for (std::size_t i = 0; i < fit.errors.size(); ++i) {
+    falls.push_back(square(than.errors[i]) - square(fit.errors[i]));
   }
-  return meanInStandardErrors(falls) > kClearly;
+  return clearlyPositive(falls);
 }
 
-double product(const WeighedFit& fit) {
-  return fit.heldout.translation_m * fit.heldout.rotation_rad;
-}
+double product(const PairError& error) { return error.translation_m * error.rotation_rad; }
 
 }  // namespace
 
@@ -127,25 +114,38 @@ PairWeights believedWeights(const std::vector<PosePair>& pairs) {
   return told ? PairWeights::kViews : PairWeights::kPairs;
 }
 
-std::vector<HandEye> refitsWithoutEach(const std::vector<PosePair>& pairs, EyeSetup setup,
-                                       const HandEye& pose, const std::vector<bool>& used,
-                                       const PairNoise& noise, PairWeights weights) {
-  const Weighing weighing(pairs, noise, weights);
-  std::vector<HandEye> without;
+LeftOut leaveEachOut(const std::vector<PosePair>& pairs, EyeSetup setup, const WeighedFit& fit,
+                     const std::vector<bool>& used) {
+  const Weighing weighing(pairs, fit.noise, fit.weights);
+  LeftOut left_out;
+  std::vector<Vector12> changes;
+  Vector12 sum = Vector12::Zero();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (used[i]) {
       std::vector<bool> others = used;
       others[i] = false;
-      without.push_back(refitHandEye(weighing.pairs, setup, pose, others, weighing.noise));
+      const HandEye without = refitHandEye(weighing.pairs, setup, fit.pose, others, weighing.noise);
+      left_out.errors.push_back(pairError(without, pairs[i], setup));
+      Vector12 change;
+      change << logSe3(fit.pose.camera.inverse() * without.camera),
+          logSe3(fit.pose.target.inverse() * without.target);
+      changes.push_back(change);
+      sum += change;
     }
   }
-  return without;
+  left_out.rms = rms(left_out.errors);
+  const auto n = static_cast<double>(changes.size());
+  for (const Vector12& change : changes) {
+    const Vector12 from_mean = change - sum / n;
+    left_out.jackknife += (n - 1.0) / n * from_mean * from_mean.transpose();
+  }
+  return left_out;
 }
 
 std::vector<WeighedFit> fitInEveryWay(const std::vector<PosePair>& pairs, EyeSetup setup,
                                       const HandEyeFit& believed) {
   std::vector<WeighedFit> fits{
-      {believedWeights(pairs), believed.pose, believed.noise, believed.covariance, {}, {}}};
+      {believedWeights(pairs), believed.pose, believed.noise, believed.covariance, {}}};
   if (fits.front().weights == PairWeights::kViews) {
     fits.push_back(fitPairs(pairs, setup, believed));
   }
@@ -155,7 +155,7 @@ std::vector<WeighedFit> fitInEveryWay(const std::vector<PosePair>& pairs, EyeSet
       fit.covariance = covarianceUnder(Weighing(pairs, fit.noise, fit.weights), setup, fit.pose,
                                        believed.used, fit.noise);
     }
-    leaveOut(pairs, setup, believed.used, fit);
+    fit.left_out = leaveEachOut(pairs, setup, fit, believed.used);
   }
   return fits;
 }
@@ -164,9 +164,10 @@ std::size_t chosenFit(const std::vector<WeighedFit>& fits) {
   std::size_t chosen = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < fits.size(); ++i) {
-    if (clearlyBetter(fits[i], fits[0]) && product(fits[i]) < least) {
+    const LeftOut& left_out = fits[i].left_out;
+    if (clearlyBetter(left_out, fits[0].left_out) && product(left_out.rms) < least) {
       chosen = i;
-      least = product(fits[i]);
+      least = product(left_out.rms);
     }
   }
   return chosen;

@@ -31,23 +31,28 @@ enum class PairWeights { kViews, kPairs, kRotationFirst };
 /// "covariances of the views", "scatter of the pairs", "rotation first".
 std::string toString(PairWeights weights);
 
+/// What leaving pairs out shows.
+struct LeftOut {
+  std::vector<PairError> errors;  ///< of every pair used: predicted by a fit without it
+  PairError rms;                  ///< of them
+  Covariance12 jackknife = Covariance12::Zero();  ///< of (a, b), see hand_eye_fit.h (Efron 1982)
+};
+
 /// A result under weights of one kind.
 struct WeighedFit {
   PairWeights weights = PairWeights::kPairs;
   HandEye pose;
   PairNoise noise;  ///< beside the views' covariances with kViews, all there is otherwise
   std::optional<Covariance12> covariance;  ///< of the small twists (a, b), see hand_eye_fit.h
-  std::vector<PairError> left_out;         ///< of every pair used: predicted by a fit without it
-  PairError heldout;                       ///< their RMS
+  LeftOut left_out;
 };
 
 /// The way that stands unless refuted: kViews if views told covariances, else kPairs.
 PairWeights believedWeights(const std::vector<PosePair>& pairs);
 
-/// For every used pair, in order, the fit without it under such weights, started from `pose`.
-std::vector<HandEye> refitsWithoutEach(const std::vector<PosePair>& pairs, EyeSetup setup,
-                                       const HandEye& pose, const std::vector<bool>& used,
-                                       const PairNoise& noise, PairWeights weights);
+/// Every used pair left out once, under the weights of `fit`, started from its pose.
+LeftOut leaveEachOut(const std::vector<PosePair>& pairs, EyeSetup setup, const WeighedFit& fit,
+                     const std::vector<bool>& used);
 
 /// Every way there is, the believed one first: that one is `believed` itself.
 /// Precondition: at least three pairs used, which leave no motion undetermined.

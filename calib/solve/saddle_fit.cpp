@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/grey_between.h"
+
 namespace ringhook {
 namespace {
 
@@ -49,15 +51,11 @@ Patch patchAround(const GrayImage& image, const Vector2d& start, int half_side) 
   return patch;
 }
 
-// Between pixels; beyond the border as at it.
+// Beyond the image's border as at it.
 double greyAt(const GrayImage& image, const Vector2d& at) {
-  const int x = std::clamp(static_cast<int>(std::floor(at.x())), 0, image.width - 2);
-  const int y = std::clamp(static_cast<int>(std::floor(at.y())), 0, image.height - 2);
-  const double u = std::clamp(at.x() - x, 0.0, 1.0);
-  const double v = std::clamp(at.y() - y, 0.0, 1.0);
-  const std::uint8_t* upper = image.row(y) + x;
-  const std::uint8_t* lower = image.row(y + 1) + x;
-  return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+  constexpr double kBefore = 1.0 + 1e-9;  // the last pixel has none behind it
+  return greyBetween(image, std::clamp(at.x(), 0.0, image.width - kBefore),
+                     std::clamp(at.y(), 0.0, image.height - kBefore));
 }
 
 // Angles of the two edges, where the grey on a ring about the corner passes its mean.

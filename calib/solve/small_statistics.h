@@ -21,13 +21,13 @@ inline double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Mean over its standard error: how clearly the values differ from zero. NaN where none differs
-/// from zero at all. Precondition: at least two values.
-inline double meanInStandardErrors(const std::vector<double>& values) {
+/// Whether the mean of values is above zero by more than two standard errors: what is asked before
+/// another model is believed for what it predicts. Precondition: at least two values.
+inline bool clearlyPositive(const std::vector<double>& values) {
   const Eigen::Map<const Eigen::ArrayXd> v(values.data(), static_cast<Eigen::Index>(values.size()));
   const auto n = static_cast<double>(v.size());
   const double variance = (v - v.mean()).square().sum() / (n - 1.0);
-  return v.mean() / std::sqrt(variance / n);
+  return v.mean() > 2.0 * std::sqrt(variance / n);
 }
 
 /// Standard deviation in the direction in which it is largest; unit of the covariance's root.

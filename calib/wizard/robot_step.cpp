@@ -207,7 +207,7 @@ void tell(WizardContext& context, const PlateCalibration& calibration) {
   }
   context.console.say(figures(result) + "\n  verdict: " + toString(result.verdict.grade) + ": " +
                       result.verdict.sentence);
-  if (!result.weighings.empty() && result.weights != result.weighings.front().weights) {
+  if (weightsRefuted(result)) {
     context.console.say("  weighed by: " + toString(result.weights) +
                         ", since pairs left out contradict the errors that the pictures tell of");
   }

@@ -4,21 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "core/grey_between.h"
+
 namespace ringhook {
 namespace {
 
 constexpr int kMaxReach = 4;
-
-double bilinear(const GrayImage& image, double x, double y) {
-  const int x0 = static_cast<int>(x);
-  const int y0 = static_cast<int>(y);
-  const double fx = x - x0;
-  const double fy = y - y0;
-  const std::uint8_t* upper = image.row(y0) + x0;
-  const std::uint8_t* lower = upper + image.width;
-  return (1.0 - fy) * ((1.0 - fx) * upper[0] + fx * upper[1]) +
-         fy * ((1.0 - fx) * lower[0] + fx * lower[1]);
-}
 
 /// Difference across the normal at `p`, averaged along the line [grey levels per pixel].
 double across(const GrayImage& image, const Eigen::Vector2d& p, const Eigen::Vector2d& normal) {
@@ -27,7 +18,7 @@ double across(const GrayImage& image, const Eigen::Vector2d& p, const Eigen::Vec
   for (int t = -1; t <= 1; ++t) {
     const Eigen::Vector2d a = p + normal + t * along;
     const Eigen::Vector2d b = p - normal + t * along;
-    sum += bilinear(image, a.x(), a.y()) - bilinear(image, b.x(), b.y());
+    sum += greyBetween(image, a.x(), a.y()) - greyBetween(image, b.x(), b.y());
   }
   return sum / 6.0;
 }

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "../support/scratch_folder.h"
 #include "camera/image_file.h"
 #include "evaluate_command.h"
 
@@ -23,12 +24,11 @@ constexpr auto kCube = "V1\n4\n0 0 0\n0.1 0 0\n0.1 0.1 0\n0 0.1 0\n0\n0\n1\n4 0 
 /// Good input for a run; each test spoils one piece.
 class BadInput : public ::testing::Test {
  protected:
-  BadInput() : folder_(freshFolder()), out_(folder_ / "out") {
+  BadInput() {
     write("rig.yaml", kRig);
     write("model.cao", kCube);
     writeGrayImage(folder_ / "left" / "0.png", GrayImage(64, 48, 90));
   }
-  ~BadInput() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -49,8 +49,9 @@ class BadInput : public ::testing::Test {
     EXPECT_THAT(result.message, Not(HasSubstr("\n")));
     EXPECT_EQ(filesBelow(out_), 0);
   }
-  fs::path folder_;
-  fs::path out_;
+  ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
+  fs::path out_ = folder_ / "out";
 };
 
 TEST_F(BadInput, MissingRigIsNamed) {

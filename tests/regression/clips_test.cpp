@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../support/scratch_folder.h"
 #include "camera/sequence.h"
 #include "evaluate_command.h"
 
@@ -30,7 +31,8 @@ class Clip : public ::testing::TestWithParam<ClipBounds> {};
 
 TEST_P(Clip, IsTrackedWithinItsBounds) {
   const ClipBounds& bounds = GetParam();
-  const fs::path out = freshFolder();
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path();
   const auto result = runEvaluate(
       {"sequence", (kClips / bounds.name).string(), "--gate-mm", "15", "--out", out.string()});
   ASSERT_EQ(result.exit_code, 0) << result.message;
@@ -42,7 +44,6 @@ TEST_P(Clip, IsTrackedWithinItsBounds) {
   EXPECT_EQ(summary.at("false_poses"), 0);
   EXPECT_LE(summary.at("position_error_mm").at("mean"), bounds.mean_mm);
   EXPECT_LE(summary.at("position_error_mm").at("max"), bounds.max_mm);
-  fs::remove_all(out);
 }
 
 TEST_P(Clip, HasATruthForEveryFrameAndTheArmsStates) {

@@ -1,8 +1,5 @@
 #include "evaluate_command.h"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "app/evaluate.h"
@@ -23,16 +20,6 @@ CommandResult runEvaluate(std::vector<std::string> arguments) {
     return {e.exitCode(), e.what()};
   }
   return {};
-}
-
-std::filesystem::path freshFolder() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  auto folder = std::filesystem::temp_directory_path() /
-                (std::string("ringhook-") + test->test_suite_name() + "-" + test->name() + "-" +
-                 std::to_string(::getpid()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
 }
 
 int filesBelow(const std::filesystem::path& folder) {

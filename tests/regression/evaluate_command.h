@@ -17,9 +17,6 @@ struct CommandResult {
 /// \param arguments behind `ringhook evaluate`.
 CommandResult runEvaluate(std::vector<std::string> arguments);
 
-/// A fresh folder for the running test.
-std::filesystem::path freshFolder();
-
 /// Number of files below a folder; 0 if it does not exist.
 int filesBelow(const std::filesystem::path& folder);
 

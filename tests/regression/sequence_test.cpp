@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../support/scratch_folder.h"
 #include "evaluate_command.h"
 #include "evaluation/trajectory_io.h"
 
@@ -16,7 +17,8 @@ nlohmann::json summaryOf(const std::filesystem::path& folder) {
 }
 
 TEST(RealPhotographs, TheCubeIsTrackedInEveryFrame) {
-  const auto out = freshFolder();
+  const ScratchFolder scratch;
+  const auto out = scratch.path();
   const auto result = runEvaluate({"sequence", (kDatasets / "visp-cube").string(), "--method",
                                    "edges,edges-visp", "--out", out.string()});
   ASSERT_EQ(result.exit_code, 0) << result.message;
@@ -26,12 +28,12 @@ TEST(RealPhotographs, TheCubeIsTrackedInEveryFrame) {
   EXPECT_EQ(summary.at("losses"), 0);
   EXPECT_EQ(summary.at("methods").at("edges-visp").at("frames_tracked"), 218);
   EXPECT_EQ(readTum(out / "estimate.tum").size(), 218U);
-  std::filesystem::remove_all(out);
 }
 
 // ViSP's own limits for its edge tracker on this sequence: 7 mm and 3.7 degrees in the worst frame.
 TEST(Castle, StaysWithinVispsOwnLimits) {
-  const auto out = freshFolder();
+  const ScratchFolder scratch;
+  const auto out = scratch.path();
   const auto result = runEvaluate({"sequence", (kDatasets / "visp-castle").string(), "--method",
                                    "edges,edges-visp", "--gate-mm", "7", "--out", out.string()});
   ASSERT_EQ(result.exit_code, 0) << result.message;
@@ -46,7 +48,6 @@ TEST(Castle, StaysWithinVispsOwnLimits) {
   for (const auto* file : {"report.html", "frames.csv", "frames-edges-visp.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   }
-  std::filesystem::remove_all(out);
 }
 
 }  // namespace

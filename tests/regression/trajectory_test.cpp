@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../support/scratch_folder.h"
 #include "evaluate_command.h"
 
 namespace ringhook {
@@ -21,7 +22,7 @@ using ::testing::Not;
 
 class TrajectoryCommand : public ::testing::Test {
  protected:
-  TrajectoryCommand() : folder_(freshFolder()) {
+  TrajectoryCommand() {
     std::string text = "time_s,angle_rad\n";
     for (int i = 0; i < 400; ++i) {
       const double t = 0.01 * i;
@@ -29,7 +30,6 @@ class TrajectoryCommand : public ::testing::Test {
     }
     write("swing.csv", text);
   }
-  ~TrajectoryCommand() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -47,7 +47,8 @@ class TrajectoryCommand : public ::testing::Test {
     EXPECT_THAT(result.message, AllOf(HasSubstr(words), Not(HasSubstr("\n"))));
     EXPECT_EQ(filesBelow(folder_ / "out"), 0);
   }
-  fs::path folder_;
+  ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 TEST_F(TrajectoryCommand, WritesItsThreeFilesAndTheJson) {
@@ -112,12 +113,6 @@ class RecordedTrajectories : public ::testing::Test {
     if (!fs::is_directory(data_)) {
       GTEST_SKIP() << "no recorded trajectories here: set RINGHOOK_DATA to their folder";
     }
-    folder_ = freshFolder();
-  }
-  void TearDown() override {
-    if (!folder_.empty()) {
-      fs::remove_all(folder_);
-    }
   }
   nlohmann::json evaluated(std::vector<std::string> arguments) {
     const fs::path json = folder_ / "result.json";
@@ -138,7 +133,8 @@ class RecordedTrajectories : public ::testing::Test {
                       "x=load_x,y=load_y,z=load_z", "--horizons", "0.5", "--models", kCompared});
   }
   fs::path data_;
-  fs::path folder_;
+  ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 
 double rmsOf(const nlohmann::json& json, const char* model, const char* key) {

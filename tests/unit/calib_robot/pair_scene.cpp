@@ -1,5 +1,6 @@
 #include "pair_scene.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace ringhook {
@@ -35,6 +36,13 @@ Pose disturbed(const Pose& cMt, const PairScene& scene, std::mt19937_64& dice) {
 }
 
 }  // namespace
+
+double mahalanobis2(const HandEye& pose, const Eigen::Matrix<double, 12, 12>& covariance,
+                    const HandEye& truth) {
+  Eigen::Matrix<double, 12, 1> e;
+  e << logSe3(pose.camera.inverse() * truth.camera), logSe3(pose.target.inverse() * truth.target);
+  return e.dot(covariance.ldlt().solve(e));
+}
 
 Eigen::Matrix3d randomRotation(std::mt19937_64& dice, double most) {
   std::uniform_real_distribution<double> draw(0.0, most);

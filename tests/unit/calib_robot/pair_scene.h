@@ -34,6 +34,10 @@ struct MadePairs {
 /// Different `dice` make a different camera, tool, poses and noise.
 MadePairs makePairs(const PairScene& scene, std::mt19937_64& dice);
 
+/// e^T C^-1 e of the error e = (a, b) of a result (hand_eye_fit.h): 12 on average if C is right.
+double mahalanobis2(const HandEye& pose, const Eigen::Matrix<double, 12, 12>& covariance,
+                    const HandEye& truth);
+
 /// A rotation about a random axis by a random angle up to `most` [rad].
 Eigen::Matrix3d randomRotation(std::mt19937_64& dice, double most);
 
