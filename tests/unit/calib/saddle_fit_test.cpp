@@ -170,5 +170,16 @@ TEST(SaddleFit, FindsNothingWhereThereIsNoSuchCorner) {
   EXPECT_FALSE(fitSaddle(GrayImage(1, 1), {0, 0}, kHalf).has_value());
 }
 
+TEST(SaddleFit, RefusesCornersThatAreFarFlatOrNearlyAnEdge) {
+  EXPECT_FALSE(fitSaddle(draw({}), {33.0, 30.0}, kHalf).has_value());
+  Drawn narrow;
+  narrow.angle2 = narrow.angle1 + 0.2;
+  EXPECT_FALSE(fitSaddle(draw(narrow), {30.0, 30.0}, kHalf).has_value());
+  std::vector<double> flat = greys({});
+  std::transform(flat.begin(), flat.end(), flat.begin(), [](double grey) { return 0.04 * grey; });
+  std::mt19937_64 dice(3);
+  EXPECT_FALSE(fitSaddle(exposed(flat, 0.0, dice), {30.0, 30.0}, kHalf).has_value());
+}
+
 }  // namespace
 }  // namespace ringhook
